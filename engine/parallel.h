@@ -1,0 +1,55 @@
+// engine/parallel.h - the parallel loop that kernels use. Chunks are fixed ranges of rows: no result depends on who runs them.
+#pragma once
+#include <algorithm>
+#include <cstddef>
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/partitioner.h>
+#include <oneapi/tbb/task_arena.h>
+
+namespace skred {
+
+// Told of every chunk when it is done; the runtime's way to time kernels.
+struct ChunkObserver {
+  virtual std::uint64_t now() const = 0;
+  virtual void chunk(int lane, std::uint64_t begin, std::size_t rows) = 0;
+ protected:
+  ~ChunkObserver() = default;
+};
+
+// Handed to a kernel that names it in its parameter list.
+class Parallel {
+ public:
+  Parallel() = default;                                  // serial
+  Parallel(bool threaded, ChunkObserver* observer) : threaded_(threaded), observer_(observer) {}
+
+  // Calls body(first, last) for ranges that cover [0, count). A loop of at most `grain` rows runs inline.
+  template <class Body> void operator()(std::size_t count, std::size_t grain, const Body& body) const {
+    if (!threaded_ || count <= grain) return run(0, count, body);
+    // Isolated: a thread that waits here must not start another kernel inside this one (its spans would nest).
+    tbb::this_task_arena::isolate([&] {
+      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
+                        [&](const auto& r) { run(r.begin(), r.end(), body); }, tbb::simple_partitioner{});
+    });
+  }
+
+  // Calls body(chunk, first, last) for the fixed chunks [k * size, (k+1) * size): for results gathered per chunk.
+  template <class Body> void chunks(std::size_t count, std::size_t size, const Body& body) const {
+    const std::size_t n = (count + size - 1) / size;
+    (*this)(n, 1, [&](std::size_t first, std::size_t last) {
+      for (std::size_t k = first; k < last; ++k) body(k, k * size, std::min(count, (k + 1) * size));
+    });
+  }
+
+ private:
+  template <class Body> void run(std::size_t first, std::size_t last, const Body& body) const {
+    if (!observer_) return body(first, last);
+    const auto begin = observer_->now();
+    body(first, last);
+    observer_->chunk(tbb::this_task_arena::current_thread_index(), begin, last - first);
+  }
+  bool threaded_ = false;
+  ChunkObserver* observer_ = nullptr;
+};
+
+}  // namespace skred

@@ -1,0 +1,166 @@
+// engine/world.h - the state of a simulation: a few tables, each a plain struct of named columns.
+//
+// Every table lists its columns in `columns()`, so that reordering, memory accounts and output are written once.
+#pragma once
+#include <cstdint>
+#include <limits>
+#include <tuple>
+#include <vector>
+#include "engine/geometry/shape.h"
+#include "engine/vec3.h"
+
+namespace skred {
+
+template <class V> struct Column {
+  const char* name;             // shown in the graph, the timeline and the output files
+  const char* unit;             // SI; "1" if dimensionless
+  std::vector<V> data = {};
+};
+
+using Index = std::uint32_t;    // a row of a table
+inline constexpr Index no_index = std::numeric_limits<Index>::max();
+
+// One row per sphere. Rows are re-sorted in space now and then; `id` stays.
+struct Particles {
+  Column<Index>      id{"id", "1"};                                // 0 .. count-1, unique
+  Column<Vec3>       position{"position", "m"};
+  Column<Vec3>       velocity{"velocity", "m/s"};
+  Column<Vec3>       angular_velocity{"angular_velocity", "rad/s"};
+  Column<Quaternion> orientation{"orientation", "1"};              // empty unless the output asks for it
+  Column<Vec3>       force{"force", "N"};                          // total, gravity included
+  Column<Vec3>       torque{"torque", "N m"};
+  Column<double>     radius{"radius", "m"};                        // > 0
+  Column<double>     mass{"mass", "kg"};                           // > 0; moment of inertia 2/5 m R^2
+  Column<Index>      material{"material", "1"};                    // row of the pair table
+  Column<Vec3>       searched{"position_at_search", "m"};          // where the particle was when candidates were last listed
+  std::size_t rows() const { return position.data.size(); }
+  static constexpr auto columns() {
+    return std::tuple{&Particles::id, &Particles::position, &Particles::velocity, &Particles::angular_velocity,
+                      &Particles::orientation, &Particles::force, &Particles::torque, &Particles::radius,
+                      &Particles::mass, &Particles::material, &Particles::searched};
+  }
+};
+
+// Pairs of particles that may touch before the next search, id[i] < id[j]; sorted by the row i, then by id[j].
+struct Contacts {
+  Column<Index>  i{"i", "1"}, j{"j", "1"};                         // rows of Particles
+  Column<Vec3>   force{"contact_force", "N"};                      // on i, -force on j; zero where the pair does not touch
+  Column<Vec3>   torque_i{"contact_torque_i", "N m"};              // on i, rolling resistance included
+  Column<Vec3>   torque_j{"contact_torque_j", "N m"};              // on j
+  Column<Vec3>   spring{"tangential_spring", "m"};                 // history: displacement in the tangent plane
+  Column<Vec3>   rolling{"rolling_moment", "N m"};                 // history: elastic rolling moment on i
+  std::size_t rows() const { return i.data.size(); }
+  static constexpr auto columns() {
+    return std::tuple{&Contacts::i, &Contacts::j, &Contacts::force, &Contacts::torque_i, &Contacts::torque_j,
+                      &Contacts::spring, &Contacts::rolling};
+  }
+};
+
+// Where each particle finds its contacts. Row p of `first` and of `first_lower` for particle p, and one more at the end:
+// contacts [first[p], first[p+1]) have p as i; lower[first_lower[p] .. first_lower[p+1]) are those with p as j, by ascending id of i.
+// Read one after the other - lower ids first - they give every particle its partners by ascending id: the order of its sums.
+struct Incidence {
+  Column<Index> first{"first_contact", "1"};
+  Column<Index> first_lower{"first_lower_contact", "1"};
+  Column<Index> lower{"lower_contact", "1"};
+  std::size_t rows() const { return first.data.size(); }
+  static constexpr auto columns() { return std::tuple{&Incidence::first, &Incidence::first_lower, &Incidence::lower}; }
+};
+
+// Places where a particle may touch a geometry of a rigid body before the next search; sorted by particle row, geometry,
+// slot. An analytic shape has one slot, a mesh has several: a sphere in a corner touches it more than once.
+struct BodyContacts {
+  Column<Index>  particle{"particle", "1"};                        // row of Particles
+  Column<Index>  geometry{"geometry", "1"};                        // row of Geometries
+  Column<Index>  slot{"slot", "1"};
+  Column<Index>  first_triangle{"first_triangle", "1"};            // mesh only: candidates [first, first + count) of Triangles
+  Column<Index>  triangle_count{"triangle_count", "1"};
+  Column<double> overlap{"overlap", "m"};                          // > 0 in contact
+  Column<Vec3>   normal{"normal", "1"};                            // unit, from the body to the particle
+  Column<double> curvature{"curvature", "1/m"};                    // of the body's surface: R_eff = 1 / (1/R + curvature)
+  Column<Vec3>   force{"contact_force", "N"};                      // on the particle, -force on the body
+  Column<Vec3>   torque{"contact_torque", "N m"};                  // on the particle
+  Column<Vec3>   rolling_torque{"contact_rolling_torque", "N m"};  // its rolling part: the body gets the opposite
+  Column<Vec3>   spring{"tangential_spring", "m"};                 // history
+  Column<Vec3>   rolling{"rolling_moment", "N m"};                 // history
+  std::size_t rows() const { return particle.data.size(); }
+  static constexpr auto columns() {
+    return std::tuple{&BodyContacts::particle, &BodyContacts::geometry, &BodyContacts::slot, &BodyContacts::first_triangle,
+                      &BodyContacts::triangle_count, &BodyContacts::overlap, &BodyContacts::normal, &BodyContacts::curvature,
+                      &BodyContacts::force, &BodyContacts::torque, &BodyContacts::rolling_torque, &BodyContacts::spring,
+                      &BodyContacts::rolling};
+  }
+};
+
+// BodyContacts [first[p], first[p+1]) belong to particle p. One row per particle and one more at the end.
+struct BodyIncidence {
+  Column<Index> first{"first_body_contact", "1"};
+  std::size_t rows() const { return first.data.size(); }
+  static constexpr auto columns() { return std::tuple{&BodyIncidence::first}; }
+};
+
+// Candidate triangles of the mesh contacts, ascending within each contact.
+struct Triangles {
+  Column<Index> triangle{"triangle", "1"};
+  std::size_t rows() const { return triangle.data.size(); }
+  static constexpr auto columns() { return std::tuple{&Triangles::triangle}; }
+};
+
+enum class Motion : std::uint8_t { fixed, kinematic, dynamic };
+
+// One row per rigid body; the origin of a dynamic body's frame is its centre of mass, its axes are principal axes.
+struct Bodies {
+  Column<Motion> motion{"motion", "1"};
+  Column<Pose>   pose{"pose", "m, 1"};
+  Column<Vec3>   velocity{"velocity", "m/s"};                      // of the origin of its frame
+  Column<Vec3>   angular_velocity{"angular_velocity", "rad/s"};
+  Column<Vec3>   force{"force", "N"};                              // from particles
+  Column<Vec3>   torque{"torque", "N m"};                          // from particles, about the origin of its frame
+  Column<double> mass{"mass", "kg"};                               // dynamic bodies
+  Column<Vec3>   inertia{"inertia", "kg m^2"};                     // dynamic bodies: principal moments
+  Column<Pose>   searched{"pose_at_search", "m, 1"};
+  std::size_t rows() const { return motion.data.size(); }
+  static constexpr auto columns() {
+    return std::tuple{&Bodies::motion, &Bodies::pose, &Bodies::velocity, &Bodies::angular_velocity, &Bodies::force,
+                      &Bodies::torque, &Bodies::mass, &Bodies::inertia, &Bodies::searched};
+  }
+};
+
+// One row per geometry of a rigid body; sorted by body.
+struct Geometries {
+  Column<Index> body{"body", "1"};                                 // row of Bodies
+  Column<Shape> shape{"shape", "1"};
+  Column<Pose>  local{"pose_in_body", "m, 1"};
+  Column<Index> material{"material", "1"};
+  std::size_t rows() const { return body.data.size(); }
+  static constexpr auto columns() {
+    return std::tuple{&Geometries::body, &Geometries::shape, &Geometries::local, &Geometries::material};
+  }
+};
+
+// One row: the clock. Time is an integer times the time step, never a sum.
+struct Clock {
+  Column<std::int64_t> step{"step", "1", {0}};
+  std::size_t rows() const { return 1; }
+  static constexpr auto columns() { return std::tuple{&Clock::step}; }
+};
+
+// Bits that a step may set and the run loop reads.
+enum class Trouble : std::uint32_t { none = 0, not_finite, too_fast, out_of_bounds };
+
+// One row: the state of the search for candidates, and what watching the motion found.
+struct Search {
+  Column<char>         due{"search_due", "1", {1}};                // candidates must be listed anew in this step
+  Column<std::int64_t> count{"searches", "1", {0}};                // searches so far
+  Column<Trouble>      trouble{"trouble", "1", {Trouble::none}};
+  Column<Index>        culprit{"culprit", "1", {no_index}};        // id of the particle in trouble
+  Column<std::int64_t> outside{"outside", "1", {0}};               // particles outside the bounds
+  std::size_t rows() const { return 1; }
+  static constexpr auto columns() {
+    return std::tuple{&Search::due, &Search::count, &Search::trouble, &Search::culprit, &Search::outside};
+  }
+};
+
+using World = std::tuple<Particles, Contacts, Incidence, BodyContacts, BodyIncidence, Triangles, Bodies, Geometries, Clock, Search>;
+
+}  // namespace skred
