@@ -9,10 +9,12 @@
 
 namespace skred {
 
-// Told of every chunk when it is done; the runtime's way to time kernels.
+// Told of every chunk when it is done, and of the serial stretches between parallel loops; the runtime's way to time kernels.
 struct ChunkObserver {
   virtual std::uint64_t now() const = 0;
   virtual void chunk(int lane, std::uint64_t begin, std::size_t rows) = 0;
+  virtual void end_serial() = 0;                         // a parallel loop begins ...
+  virtual void begin_serial() = 0;                       // ... and has ended: both on the kernel's thread
  protected:
   ~ChunkObserver() = default;
 };
@@ -25,12 +27,14 @@ class Parallel {
 
   // Calls body(first, last) for ranges that cover [0, count). A loop of at most `grain` rows runs inline.
   template <class Body> void operator()(std::size_t count, std::size_t grain, const Body& body) const {
-    if (!threaded_ || count <= grain) return run(0, count, body);
+    if (!threaded_ || count <= grain) return body(std::size_t{0}, count);
+    if (observer_) observer_->end_serial();
     // Isolated: a thread that waits here must not start another kernel inside this one (its spans would nest).
     tbb::this_task_arena::isolate([&] {
       tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
                         [&](const auto& r) { run(r.begin(), r.end(), body); }, tbb::simple_partitioner{});
     });
+    if (observer_) observer_->begin_serial();
   }
 
   // Calls body(chunk, first, last) for the fixed chunks [k * size, (k+1) * size): for results gathered per chunk.

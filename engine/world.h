@@ -33,17 +33,19 @@ struct Particles {
   Column<double>     mass{"mass", "kg"};                           // > 0; moment of inertia 2/5 m R^2
   Column<Index>      material{"material", "1"};                    // row of the pair table
   Column<Vec3>       searched{"position_at_search", "m"};          // where the particle was when candidates were last listed
+  Column<Index>      previous_row{"row_before_reorder", "1"};      // its row at the search before that
   std::size_t rows() const { return position.data.size(); }
   static constexpr auto columns() {
     return std::tuple{&Particles::id, &Particles::position, &Particles::velocity, &Particles::angular_velocity,
                       &Particles::orientation, &Particles::force, &Particles::torque, &Particles::radius,
-                      &Particles::mass, &Particles::material, &Particles::searched};
+                      &Particles::mass, &Particles::material, &Particles::searched, &Particles::previous_row};
   }
 };
 
 // Pairs of particles that may touch before the next search, id[i] < id[j]; sorted by the row i, then by id[j].
 struct Contacts {
   Column<Index>  i{"i", "1"}, j{"j", "1"};                         // rows of Particles
+  Column<Index>  partner{"partner", "1"};                          // id[j]
   Column<Vec3>   force{"contact_force", "N"};                      // on i, -force on j; zero where the pair does not touch
   Column<Vec3>   torque_i{"contact_torque_i", "N m"};              // on i, rolling resistance included
   Column<Vec3>   torque_j{"contact_torque_j", "N m"};              // on j
@@ -51,8 +53,20 @@ struct Contacts {
   Column<Vec3>   rolling{"rolling_moment", "N m"};                 // history: elastic rolling moment on i
   std::size_t rows() const { return i.data.size(); }
   static constexpr auto columns() {
-    return std::tuple{&Contacts::i, &Contacts::j, &Contacts::force, &Contacts::torque_i, &Contacts::torque_j,
+    return std::tuple{&Contacts::i, &Contacts::j, &Contacts::partner, &Contacts::force, &Contacts::torque_i, &Contacts::torque_j,
                       &Contacts::spring, &Contacts::rolling};
+  }
+};
+
+// History of the contacts before the last search, by particle row at that time (Particles::previous_row).
+struct PreviousContacts {
+  Column<Index> first{"previous_first_contact", "1"};
+  Column<Index> partner{"previous_partner", "1"};
+  Column<Vec3>  spring{"previous_tangential_spring", "m"};
+  Column<Vec3>  rolling{"previous_rolling_moment", "N m"};
+  std::size_t rows() const { return partner.data.size(); }
+  static constexpr auto columns() {
+    return std::tuple{&PreviousContacts::first, &PreviousContacts::partner, &PreviousContacts::spring, &PreviousContacts::rolling};
   }
 };
 
@@ -72,7 +86,7 @@ struct Incidence {
 struct BodyContacts {
   Column<Index>  particle{"particle", "1"};                        // row of Particles
   Column<Index>  geometry{"geometry", "1"};                        // row of Geometries
-  Column<Index>  slot{"slot", "1"};
+  Column<Index>  slot{"slot", "1"};                                // 0 for analytic shapes, 0 .. max_mesh_contacts - 1 for meshes
   Column<Index>  first_triangle{"first_triangle", "1"};            // mesh only: candidates [first, first + count) of Triangles
   Column<Index>  triangle_count{"triangle_count", "1"};
   Column<double> overlap{"overlap", "m"};                          // > 0 in contact
@@ -89,6 +103,21 @@ struct BodyContacts {
                       &BodyContacts::triangle_count, &BodyContacts::overlap, &BodyContacts::normal, &BodyContacts::curvature,
                       &BodyContacts::force, &BodyContacts::torque, &BodyContacts::rolling_torque, &BodyContacts::spring,
                       &BodyContacts::rolling};
+  }
+};
+
+// History of the body contacts before the last search, by particle row at that time.
+struct PreviousBodyContacts {
+  Column<Index>  first{"previous_first_body_contact", "1"};
+  Column<Index>  geometry{"previous_geometry", "1"};
+  Column<double> overlap{"previous_overlap", "m"};
+  Column<Vec3>   normal{"previous_normal", "1"};
+  Column<Vec3>   spring{"previous_tangential_spring", "m"};
+  Column<Vec3>   rolling{"previous_rolling_moment", "N m"};
+  std::size_t rows() const { return geometry.data.size(); }
+  static constexpr auto columns() {
+    return std::tuple{&PreviousBodyContacts::first, &PreviousBodyContacts::geometry, &PreviousBodyContacts::overlap,
+                      &PreviousBodyContacts::normal, &PreviousBodyContacts::spring, &PreviousBodyContacts::rolling};
   }
 };
 
@@ -116,13 +145,16 @@ struct Bodies {
   Column<Vec3>   angular_velocity{"angular_velocity", "rad/s"};
   Column<Vec3>   force{"force", "N"};                              // from particles
   Column<Vec3>   torque{"torque", "N m"};                          // from particles, about the origin of its frame
+  Column<Vec3>   acceleration{"acceleration", "m/s^2"};            // dynamic bodies
+  Column<Vec3>   angular_acceleration{"angular_acceleration", "rad/s^2"};
   Column<double> mass{"mass", "kg"};                               // dynamic bodies
   Column<Vec3>   inertia{"inertia", "kg m^2"};                     // dynamic bodies: principal moments
   Column<Pose>   searched{"pose_at_search", "m, 1"};
   std::size_t rows() const { return motion.data.size(); }
   static constexpr auto columns() {
     return std::tuple{&Bodies::motion, &Bodies::pose, &Bodies::velocity, &Bodies::angular_velocity, &Bodies::force,
-                      &Bodies::torque, &Bodies::mass, &Bodies::inertia, &Bodies::searched};
+                      &Bodies::torque,
+                      &Bodies::acceleration, &Bodies::angular_acceleration, &Bodies::mass, &Bodies::inertia, &Bodies::searched};
   }
 };
 
@@ -135,6 +167,18 @@ struct Geometries {
   std::size_t rows() const { return body.data.size(); }
   static constexpr auto columns() {
     return std::tuple{&Geometries::body, &Geometries::shape, &Geometries::local, &Geometries::material};
+  }
+};
+
+// Particles sorted by the cell of a grid: cell c holds order[start[c] .. start[c+1]).
+struct CellGrid {
+  Column<Index> cell{"cell", "1"};                                 // of each particle
+  Column<Index> start{"cell_start", "1"};
+  Column<Index> order{"cell_order", "1"};                          // rows of Particles
+  Column<Vec3>  position{"cell_position", "m"};                    // in that order, to be read in a stream
+  std::size_t rows() const { return cell.data.size(); }
+  static constexpr auto columns() {
+    return std::tuple{&CellGrid::cell, &CellGrid::start, &CellGrid::order, &CellGrid::position};
   }
 };
 
@@ -151,16 +195,18 @@ enum class Trouble : std::uint32_t { none = 0, not_finite, too_fast, out_of_boun
 // One row: the state of the search for candidates, and what watching the motion found.
 struct Search {
   Column<char>         due{"search_due", "1", {1}};                // candidates must be listed anew in this step
-  Column<std::int64_t> count{"searches", "1", {0}};                // searches so far
+  Column<std::int64_t> count{"searches", "1", {0}};                // searches so far, this one included
+  Column<double>       reach{"reach", "m", {0}};                   // greatest distance of a particle from the origin at the last search
   Column<Trouble>      trouble{"trouble", "1", {Trouble::none}};
   Column<Index>        culprit{"culprit", "1", {no_index}};        // id of the particle in trouble
   Column<std::int64_t> outside{"outside", "1", {0}};               // particles outside the bounds
   std::size_t rows() const { return 1; }
   static constexpr auto columns() {
-    return std::tuple{&Search::due, &Search::count, &Search::trouble, &Search::culprit, &Search::outside};
+    return std::tuple{&Search::due, &Search::count, &Search::reach, &Search::trouble, &Search::culprit, &Search::outside};
   }
 };
 
-using World = std::tuple<Particles, Contacts, Incidence, BodyContacts, BodyIncidence, Triangles, Bodies, Geometries, Clock, Search>;
+using World = std::tuple<Particles, Contacts, PreviousContacts, Incidence, BodyContacts, PreviousBodyContacts, BodyIncidence, Triangles,
+                         Bodies, Geometries, CellGrid, Clock, Search>;
 
 }  // namespace skred

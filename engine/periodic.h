@@ -1,0 +1,35 @@
+// engine/periodic.h - the shortest way between two points, with and without periodic directions.
+#pragma once
+#include "engine/vec3.h"
+
+namespace skred {
+
+// Free space.
+struct OpenSpace {
+  template <class R> Vec3T<R> shortest(const Vec3T<R>& d) const { return d; }
+  Vec3 wrap(const Vec3& x) const { return x; }
+};
+
+// A box with one or more periodic directions. Positions lie in [min, min + length) along them; a direction that is not
+// periodic has an infinite length.
+struct PeriodicSpace {
+  Vec3 min, length;            // [m]
+
+  template <class R> Vec3T<R> shortest(const Vec3T<R>& d) const {
+    return {shortest(d.x, R(length.x)), shortest(d.y, R(length.y)), shortest(d.z, R(length.z))};
+  }
+  Vec3 wrap(const Vec3& x) const { return {wrap(x.x, min.x, length.x), wrap(x.y, min.y, length.y), wrap(x.z, min.z, length.z)}; }
+
+ private:
+  template <class R> static R shortest(R d, R box) {       // |d| < box, so one shift is enough
+    const R half = 0.5 * box;
+    return select(d > half, d - box, select(d < -half, d + box, d));
+  }
+  static double wrap(double x, double lo, double box) {
+    if (x < lo) x += box;
+    if (x >= lo + box) x -= box;
+    return x < lo ? lo : x;                                // rounding may leave x a hair below
+  }
+};
+
+}  // namespace skred

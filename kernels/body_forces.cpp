@@ -1,0 +1,28 @@
+#include "kernels/body_forces.h"
+#include <algorithm>
+
+namespace skred {
+
+std::vector<BodyLoad> body_loads(std::span<const Index> particle, std::span<const Index> geometry, std::span<const double> overlap,
+                                 std::span<const Vec3> normal, std::span<const Vec3> force, std::span<const Vec3> rolling_torque,
+                                 std::span<const Index> id, std::span<const Vec3> position, std::span<const double> radius,
+                                 std::span<const Index> body_of_geometry, std::span<const Pose> pose) {
+  struct Entry { Index id, contact; };
+  std::vector<Entry> touching;
+  for (Index c = 0; c < particle.size(); ++c)
+    if (overlap[c] > 0) touching.push_back({id[particle[c]], c});
+  std::sort(touching.begin(), touching.end(),               // rows of one particle already stand by geometry and slot
+            [](const Entry& a, const Entry& b) { return a.id != b.id ? a.id < b.id : a.contact < b.contact; });
+
+  std::vector<BodyLoad> loads(pose.size());
+  for (const auto [_, c] : touching) {
+    const Index p = particle[c], b = body_of_geometry[geometry[c]];
+    const Vec3 point = position[p] - (radius[p] - 0.5 * overlap[c]) * normal[c];
+    loads[b].force -= force[c];
+    loads[b].torque -= cross(point - pose[b].position, force[c]);
+    if (!rolling_torque.empty()) loads[b].torque -= rolling_torque[c];
+  }
+  return loads;
+}
+
+}  // namespace skred

@@ -1,0 +1,35 @@
+// kernels/broadphase_body.h - the geometries that a particle may touch before the next search, and for meshes the triangles.
+#pragma once
+#include "engine/access.h"
+#include "kernels/broadphase.h"
+
+namespace skred {
+
+// Chunks of particles are compact in space (kernels/reorder.h): most geometries are ruled out once per chunk.
+struct BroadphaseBody {
+  static constexpr const char* name = "broadphase_body";
+
+  double skin;              // [m] > 0
+  ContactColumns columns;
+
+  void operator()(Parallel parallel, Read<&Search::due> due, Read<&Particles::position> position,
+                  Read<&Particles::radius> radius, Read<&Geometries::body> body, Read<&Geometries::shape> shape,
+                  Read<&Geometries::local> local, Read<&Bodies::pose> pose, Update<&Bodies::searched> searched,
+                  Resize<BodyContacts> contacts, Resize<PreviousBodyContacts> previous, Resize<BodyIncidence> incidence,
+                  Resize<Triangles> triangles) const;
+};
+
+// Overlap, normal and curvature of every listed place. A mesh's places keep their slots while their normals turn little, so
+// that history survives a particle rolling from one triangle to the next.
+struct ContactGeometryBody {
+  static constexpr const char* name = "contact_geometry_body";
+
+  void operator()(Parallel parallel, Read<&BodyIncidence::first> first, Read<&BodyContacts::geometry> geometry,
+                  Read<&BodyContacts::first_triangle> first_triangle, Read<&BodyContacts::triangle_count> triangle_count,
+                  Read<&Triangles::triangle> triangle, Read<&Particles::position> position, Read<&Particles::radius> radius,
+                  Read<&Geometries::body> body, Read<&Geometries::shape> shape, Read<&Geometries::local> local,
+                  Read<&Bodies::pose> pose, Update<&BodyContacts::overlap> overlap, Update<&BodyContacts::normal> normal,
+                  Update<&BodyContacts::curvature> curvature) const;
+};
+
+}  // namespace skred

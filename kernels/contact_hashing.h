@@ -1,0 +1,71 @@
+// kernels/contact_hashing.h - carries the tangential and rolling history from the old list of candidates to the new one.
+//
+// The key of a contact is the pair of ids, or (particle id, geometry, slot). Both lists keep each particle's partners in
+// ascending order, so the look-up is a merge of two short sorted lists: an exact hash with the particle as the bucket.
+#pragma once
+#include "engine/access.h"
+
+namespace skred {
+
+template <bool spring, bool rolling> struct ContactHashing {
+  static constexpr const char* name = "contact_hashing";
+
+  void operator()(Parallel parallel, Read<&Search::due> due, Read<&Particles::previous_row> previous_row,
+                  Read<&Incidence::first> first, Read<&Contacts::partner> partner, Read<&PreviousContacts::first> old_first,
+                  Read<&PreviousContacts::partner> old_partner, If<spring, Read<&PreviousContacts::spring>> old_spring,
+                  If<rolling, Read<&PreviousContacts::rolling>> old_rolling, If<spring, Update<&Contacts::spring>> new_spring,
+                  If<rolling, Update<&Contacts::rolling>> new_rolling) const {
+    if (!due[0]) return;
+    parallel(previous_row.size(), 4096, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t p = begin; p < end; ++p) {
+        Index old = 0, old_end = 0;
+        if (!old_first.empty()) {
+          old = old_first[previous_row[p]];
+          old_end = old_first[previous_row[p] + 1];
+        }
+        for (Index c = first[p]; c < first[p + 1]; ++c) {
+          while (old < old_end && old_partner[old] < partner[c]) ++old;
+          const bool known = old < old_end && old_partner[old] == partner[c];
+          if constexpr (spring) new_spring[c] = known ? old_spring[old] : Vec3{};
+          if constexpr (rolling) new_rolling[c] = known ? old_rolling[old] : Vec3{};
+        }
+      }
+    });
+  }
+};
+
+// The same for bodies. The normal and overlap of a mesh's slots are history too: they tell which slot a place belongs to.
+template <bool spring, bool rolling> struct ContactHashingBody {
+  static constexpr const char* name = "contact_hashing_body";
+
+  void operator()(Parallel parallel, Read<&Search::due> due, Read<&Particles::previous_row> previous_row,
+                  Read<&BodyIncidence::first> first, Read<&BodyContacts::geometry> geometry,
+                  Read<&PreviousBodyContacts::first> old_first, Read<&PreviousBodyContacts::geometry> old_geometry,
+                  Read<&PreviousBodyContacts::overlap> old_overlap, Read<&PreviousBodyContacts::normal> old_normal,
+                  If<spring, Read<&PreviousBodyContacts::spring>> old_spring,
+                  If<rolling, Read<&PreviousBodyContacts::rolling>> old_rolling, Update<&BodyContacts::overlap> overlap,
+                  Update<&BodyContacts::normal> normal, If<spring, Update<&BodyContacts::spring>> new_spring,
+                  If<rolling, Update<&BodyContacts::rolling>> new_rolling) const {
+    if (!due[0]) return;
+    parallel(previous_row.size(), 4096, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t p = begin; p < end; ++p) {
+        Index old = 0, old_end = 0;
+        if (!old_first.empty()) {
+          old = old_first[previous_row[p]];
+          old_end = old_first[previous_row[p] + 1];
+        }
+        for (Index c = first[p]; c < first[p + 1]; ++c) {    // a geometry has the same slots in both lists
+          while (old < old_end && old_geometry[old] < geometry[c]) ++old;
+          const bool known = old < old_end && old_geometry[old] == geometry[c];
+          overlap[c] = known ? old_overlap[old] : 0.0;
+          normal[c] = known ? old_normal[old] : Vec3{};
+          if constexpr (spring) new_spring[c] = known ? old_spring[old] : Vec3{};
+          if constexpr (rolling) new_rolling[c] = known ? old_rolling[old] : Vec3{};
+          if (known) ++old;
+        }
+      }
+    });
+  }
+};
+
+}  // namespace skred

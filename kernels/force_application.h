@@ -1,0 +1,58 @@
+// kernels/force_application.h - sums of the contact forces, and the velocities that follow from them.
+//
+// Each particle gathers its own contacts by ascending id of the partner, then its bodies by geometry: a fixed order, so the
+// sums have the same bits for any number of threads, any skin and any order of the rows. Contacts that do not touch add zeros.
+// The last line of the integration (kernels/integrate.h) is here because both forces are at hand.
+#pragma once
+#include "engine/access.h"
+
+namespace skred {
+
+template <bool contacts, bool body_contacts, bool rotates> struct ForceApplicationParticle {
+  static constexpr const char* name = "force_application_particle";
+  static constexpr std::size_t grain = 1024;
+
+  Vec3 gravity;       // [m/s^2]
+  double time_step;   // h [s]; 0: forces only
+
+  void operator()(Rows<Particles> rows, If<contacts, Read<&Incidence::first>> first,
+                  If<contacts, Read<&Incidence::first_lower>> first_lower, If<contacts, Read<&Incidence::lower>> lower,
+                  If<contacts, Read<&Contacts::force>> pair_force, If<contacts && rotates, Read<&Contacts::torque_i>> torque_i,
+                  If<contacts && rotates, Read<&Contacts::torque_j>> torque_j,
+                  If<body_contacts, Read<&BodyIncidence::first>> first_body,
+                  If<body_contacts, Read<&BodyContacts::force>> body_force,
+                  If<body_contacts && rotates, Read<&BodyContacts::torque>> body_torque, Read<&Particles::mass> mass,
+                  If<rotates, Read<&Particles::radius>> radius, Update<&Particles::force> force,
+                  If<rotates, Update<&Particles::torque>> torque, Update<&Particles::velocity> velocity,
+                  If<rotates, Update<&Particles::angular_velocity>> spin) const {
+    for (std::size_t p = rows.first; p < rows.last; ++p) {
+      Vec3 f, t;
+      if constexpr (contacts) {
+        for (Index k = first_lower[p]; k < first_lower[p + 1]; ++k) {
+          f -= pair_force[lower[k]];
+          if constexpr (rotates) t += torque_j[lower[k]];
+        }
+        for (Index c = first[p]; c < first[p + 1]; ++c) {
+          f += pair_force[c];
+          if constexpr (rotates) t += torque_i[c];
+        }
+      }
+      if constexpr (body_contacts)
+        for (Index c = first_body[p]; c < first_body[p + 1]; ++c) {
+          f += body_force[c];
+          if constexpr (rotates) t += body_torque[c];
+        }
+      f += mass[p] * gravity;
+
+      velocity[p] += (0.5 * time_step / mass[p]) * (f - force[p]);
+      force[p] = f;
+      if constexpr (rotates) {
+        const double inertia = 0.4 * mass[p] * radius[p] * radius[p];
+        spin[p] += (0.5 * time_step / inertia) * (t - torque[p]);
+        torque[p] = t;
+      }
+    }
+  }
+};
+
+}  // namespace skred

@@ -1,0 +1,74 @@
+// kernels/force_calculation_particle_body.h - force and torque of every contact of a particle with a rigid body (smooth DEM).
+//
+// The body is a partner of infinite mass unless it is dynamic; the curvature of its surface enters R_eff.
+#pragma once
+#include <vector>
+#include "engine/access.h"
+#include "kernels/contact_law.h"
+
+namespace skred {
+
+template <class Law> struct ForceCalculationParticleBody {
+  static constexpr const char* name = "force_calculation_particle_body";
+  static constexpr std::size_t grain = 512;
+
+  Law law;
+  std::size_t materials;
+  std::vector<LawCoefficients> coefficients;   // row-major table of pairs of materials
+  double time_step;                            // h [s]; 0 leaves the history as it is
+
+  void operator()(Rows<BodyContacts> rows, Read<&BodyContacts::particle> particle, Read<&BodyContacts::geometry> geometry,
+                  Read<&BodyContacts::overlap> overlap, Read<&BodyContacts::normal> normal,
+                  Read<&BodyContacts::curvature> curvature, Read<&Particles::position> position,
+                  Read<&Particles::velocity> velocity, If<Law::rotates, Read<&Particles::angular_velocity>> spin,
+                  Read<&Particles::radius> radius, Read<&Particles::mass> mass, Read<&Particles::material> material,
+                  Read<&Geometries::body> body, Read<&Geometries::material> wall_material, Read<&Bodies::motion> motion,
+                  Read<&Bodies::pose> pose, Read<&Bodies::velocity> body_velocity,
+                  Read<&Bodies::angular_velocity> body_spin, Read<&Bodies::mass> body_mass, Write<&BodyContacts::force> force,
+                  If<Law::rotates, Write<&BodyContacts::torque>> torque,
+                  If<Law::has_rolling, Write<&BodyContacts::rolling_torque>> rolling_torque,
+                  If<Law::has_tangential, Update<&BodyContacts::spring>> spring,
+                  If<Law::has_rolling, Update<&BodyContacts::rolling>> rolling) const {
+    for (std::size_t c = rows.first; c < rows.last; ++c) {
+      if (!(overlap[c] > 0)) {
+        force[c] = {};
+        if constexpr (Law::rotates) torque[c] = {};
+        if constexpr (Law::has_rolling) rolling_torque[c] = {};
+        if constexpr (Law::has_tangential) spring[c] = {};
+        if constexpr (Law::has_rolling) rolling[c] = {};
+        continue;
+      }
+      const Index p = particle[c], g = geometry[c], w = body[g];
+      const LawCoefficients& k = coefficients[material[p] * materials + wall_material[g]];
+      ContactState<double> s;
+      s.overlap = overlap[c];
+      s.normal = normal[c];
+      s.radius_eff = radius[p] / (1 + radius[p] * curvature[c]);
+      s.mass_eff = motion[w] == Motion::dynamic ? mass[p] * body_mass[w] / (mass[p] + body_mass[w]) : mass[p];
+      s.contact_radius = std::sqrt(s.radius_eff * s.overlap);
+      s.young_eff = k.young_eff, s.shear_eff = k.shear_eff, s.damping = k.damping;
+      s.friction = k.friction, s.rolling_friction = k.rolling_friction;
+
+      const double arm = radius[p] - 0.5 * s.overlap;
+      const Vec3 point = position[p] - arm * s.normal;
+      Vec3 u = velocity[p] - (body_velocity[w] + cross(body_spin[w], point - pose[w].position));
+      s.normal_velocity = dot(u, s.normal);
+      if constexpr (Law::rotates) {
+        u -= cross(arm * spin[p], s.normal);
+        s.tangential_velocity = u - s.normal_velocity * s.normal;
+        s.rolling_velocity = in_tangent_plane(spin[p] - body_spin[w], s.normal);
+      }
+      Vec3 no_history;
+      Vec3* spring_c = &no_history;
+      Vec3* rolling_c = &no_history;
+      if constexpr (Law::has_tangential) spring_c = &spring[c];
+      if constexpr (Law::has_rolling) rolling_c = &rolling[c];
+      const ContactForce<double> f = evaluate(law, s, time_step, *spring_c, *rolling_c);
+      force[c] = f.force;
+      if constexpr (Law::rotates) torque[c] = f.rolling - arm * f.couple;
+      if constexpr (Law::has_rolling) rolling_torque[c] = f.rolling;
+    }
+  }
+};
+
+}  // namespace skred
