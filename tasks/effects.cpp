@@ -1,0 +1,83 @@
+// tasks/effects.cpp - only the effects that a scene calls for enter its step.
+#include <algorithm>
+#include "engine/geometry/mesh.h"
+#include "tasks/model.h"
+
+namespace skred {
+
+namespace {
+
+template <class V> bool all_equal(const std::vector<V>& v) {
+  return std::adjacent_find(v.begin(), v.end(), std::not_equal_to<>()) == v.end();
+}
+
+}  // namespace
+
+double largest_radius(const World& w) {
+  const auto& r = std::get<Particles>(w).radius.data;
+  return r.empty() ? 0 : *std::max_element(r.begin(), r.end());
+}
+double smallest_radius(const World& w) {
+  const auto& r = std::get<Particles>(w).radius.data;
+  return r.empty() ? 0 : *std::min_element(r.begin(), r.end());
+}
+double skin_of(const World& w, const Model& m) {
+  constexpr double part = 0.3;   // of the smallest radius: a search every 20 steps or so in a flowing bed
+  return m.skin > 0 ? m.skin : part * smallest_radius(w);
+}
+double cell_of(const World& w, const Model& m) { return std::max(m.cell, 2 * largest_radius(w) + skin_of(w, m)); }
+
+Effects decide_effects(const World& w, const Model& m) {
+  const Particles& p = std::get<Particles>(w);
+  const Geometries& g = std::get<Geometries>(w);
+  const auto& motion = std::get<Bodies>(w).motion.data;
+  const auto any_pair = [&](double PairCoefficients::* c, double none) {
+    return std::any_of(m.pairs.values.begin(), m.pairs.values.end(), [&](const auto& k) { return k.*c != none; });
+  };
+  const auto any_motion = [&](auto is) { return std::any_of(motion.begin(), motion.end(), is); };
+
+  Effects e{};
+  const auto decide = [&](const char* effect, bool in, const std::string& because, const std::string& because_not) {
+    e.reasons.push_back({effect, in, in ? because : because_not});
+    return in;
+  };
+  // An effect of a law: out if the scene says `none`, kept by `effects: all`, else as its parameter says.
+  const auto of_law = [&](const char* effect, bool law, bool needed, const std::string& because, const std::string& because_not) {
+    if (!law) return decide(effect, false, "", "contact: none in the scene");
+    if (!needed && m.all_effects) return decide(effect, true, "kept by effects: all", "");
+    return decide(effect, needed, because, because_not);
+  };
+
+  e.normal = m.normal_law;
+  e.contacts = decide("particle-particle contacts", m.normal_law && p.rows() > 1, std::to_string(p.rows()) + " particles",
+                      m.normal_law ? "fewer than two particles" : "contact: normal: none");
+  e.bodies = decide("rigid bodies", m.normal_law && g.rows() > 0,
+                    std::to_string(motion.size()) + (motion.size() == 1 ? " body, " : " bodies, ") + std::to_string(g.rows()) +
+                        (g.rows() == 1 ? " geometry" : " geometries"),
+                    g.rows() > 0 ? "contact: normal: none" : "the scene has none");
+  e.meshes = decide("meshes", e.bodies && std::any_of(g.shape.data.begin(), g.shape.data.end(),
+                                                      [](const Shape& s) { return std::holds_alternative<MeshShape>(s); }),
+                    "a geometry is a mesh", "no geometry is a mesh");
+  e.dynamic_bodies = decide("dynamic bodies", any_motion([](Motion x) { return x == Motion::dynamic; }), "a body is dynamic",
+                            "no body is dynamic; forces on bodies are summed when statistics are sampled");
+  e.moving_bodies = decide("moving bodies", any_motion([](Motion x) { return x != Motion::fixed; }), "a body moves", "every body is static");
+  e.damping = of_law("damping", m.normal_law, any_pair(&PairCoefficients::restitution, 1), "restitution is below 1 for some pair",
+                     "restitution is 1 for every pair");
+  e.friction = of_law("friction", m.normal_law && m.tangential_law, any_pair(&PairCoefficients::friction, 0),
+                      "friction is above 0 for some pair", "friction is 0 for every pair");
+  e.rolling = of_law("rolling resistance", m.normal_law && m.rolling_law, any_pair(&PairCoefficients::rolling_friction, 0),
+                     "rolling_friction is above 0 for some pair", "rolling_friction is 0 for every pair");
+  e.history = decide("contact history", e.friction || e.rolling, "friction or rolling resistance needs it", "no law needs it");
+  e.rotation = decide("rotation", e.friction || e.rolling || m.orientation,
+                      e.friction || e.rolling ? "friction or rolling resistance can turn particles" : "the output asks for orientations",
+                      "nothing can turn a particle");
+  e.orientation = decide("orientation of particles", m.orientation, "the output asks for it", "the output does not ask for it");
+  const bool alike = all_equal(p.radius.data) && all_equal(p.mass.data) && all_equal(p.material.data) && p.rows() > 0;
+  e.alike = !decide("several radii or materials of particles", !alike || m.all_effects,
+                    alike ? "kept by effects: all" : "particles differ",
+                    "one radius and one material: coefficients are worked out once");
+  e.periodic = decide("periodic directions", m.periodic.has_value(), "the scene has some", "the scene has none");
+  return e;
+}
+
+}  // namespace skred

@@ -1,0 +1,56 @@
+// tasks/force_kernels.cpp - from the laws that a scene chooses to one instance of the fused force kernels.
+#include <cmath>
+#include "kernels/force_calculation_particle_body.h"
+#include "kernels/force_calculation_particle_particle.h"
+#include "kernels/restitution.h"
+#include "tasks/steps.h"
+
+namespace skred {
+
+namespace {
+
+// beta = sqrt(10/3) zeta, so that gamma_n = beta sqrt(S_n m_eff)   eq (3.2) repaired
+LawCoefficients coefficients(const PairCoefficients& p) {
+  return {p.young_eff, p.shear_eff, std::sqrt(10.0 / 3.0) * damping_ratio_of(p.restitution), p.friction, p.rolling_friction};
+}
+
+template <class Law> void add_kernels(Task& task, const World& w, const Model& m, const Effects& e, double h, Law law) {
+  std::vector<LawCoefficients> table;
+  for (const PairCoefficients& p : m.pairs.values) table.push_back(coefficients(p));
+  const Particles& p = std::get<Particles>(w);
+
+  const auto add_pairs = [&](auto kinds, auto space) {
+    task.add(ForceCalculationParticleParticle<Law, decltype(kinds), decltype(space)>{law, kinds, space, h});
+  };
+  const auto add_in = [&](auto space) {
+    if (e.alike) {
+      const auto k = p.material.data[0];
+      add_pairs(AlikeParticles{p.radius.data[0], p.mass.data[0], table[k * m.pairs.count + k]}, space);
+    } else {
+      add_pairs(VariousParticles{m.pairs.count, table}, space);
+    }
+  };
+  if (e.contacts) {
+    if (m.periodic) add_in(*m.periodic);
+    else add_in(OpenSpace{});
+  }
+  if (e.bodies) task.add(ForceCalculationParticleBody<Law>{law, m.pairs.count, table, h});
+}
+
+template <bool damped> void choose(Task& task, const World& w, const Model& m, const Effects& e, double h) {
+  using Normal = Hertz<damped>;
+  using Tangential = TangentialSpring<damped>;
+  if (e.friction && e.rolling) add_kernels(task, w, m, e, h, ContactLaw<Normal, Tangential, RollingSpring>{});
+  else if (e.friction) add_kernels(task, w, m, e, h, ContactLaw<Normal, Tangential, NoLaw>{});
+  else if (e.rolling) add_kernels(task, w, m, e, h, ContactLaw<Normal, NoLaw, RollingSpring>{});
+  else add_kernels(task, w, m, e, h, ContactLaw<Normal, NoLaw, NoLaw>{});
+}
+
+}  // namespace
+
+void add_force_calculation(Task& task, const World& w, const Model& m, const Effects& e, double h) {
+  if (e.damping) choose<true>(task, w, m, e, h);
+  else choose<false>(task, w, m, e, h);
+}
+
+}  // namespace skred

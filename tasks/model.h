@@ -1,0 +1,50 @@
+// tasks/model.h - the choices that shape a step. A scene fills one in; add_sdem reads it.
+#pragma once
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+#include "engine/material.h"
+#include "engine/motion.h"
+#include "engine/periodic.h"
+#include "engine/world.h"
+
+namespace skred {
+
+struct Model {
+  double time_step = 0;                            // h [s] > 0
+  Vec3 gravity{0, 0, -9.81};                       // [m/s^2]
+  PairTable pairs;
+  bool normal_law = true, tangential_law = true, rolling_law = true;   // false: `none` in the scene
+  bool all_effects = false;                        // keep every effect, even where its parameter is zero
+  bool orientation = false;                        // integrate the orientation of particles
+  std::optional<PeriodicSpace> periodic;
+  std::optional<Bounds> bounds;
+  bool stop_outside = true;
+  double skin = 0, cell = 0;                       // [m]; 0: chosen from the radii
+  int reorder_every = 20;                          // searches; 0: never
+  std::vector<Pose> bodies_at_start;               // by body
+  std::vector<std::vector<MotionPiece>> pieces;    // by body; empty unless kinematic
+};
+
+// Which effects a scene calls for. Decided once, when the task is built; conservative: what can become non-zero stays in.
+struct Effects {
+  bool contacts, bodies, meshes, moving_bodies, dynamic_bodies;
+  bool normal, damping, friction, rolling;
+  bool rotation, orientation, history;
+  bool alike;                                      // one radius, one mass, one material
+  bool periodic;
+
+  struct Reason { std::string effect; bool in; std::string why; };
+  std::vector<Reason> reasons;                     // for `skred graph`, in order of the list above
+};
+
+Effects decide_effects(const World&, const Model&);
+
+// Skin and cell edge that the search uses [m].
+double skin_of(const World&, const Model&);
+double cell_of(const World&, const Model&);
+double largest_radius(const World&);
+double smallest_radius(const World&);
+
+}  // namespace skred

@@ -1,0 +1,30 @@
+// tasks/sampling.h - looking at a simulation without touching it: the numbers of the time series, and frames for the disk.
+//
+// Sums run in order of id, so they have the same bits for any number of threads and any skin.
+#pragma once
+#include <vector>
+#include "engine/io/frame.h"
+#include "kernels/body_forces.h"
+#include "tasks/simulation.h"
+
+namespace skred {
+
+struct Measures {
+  double kinetic_energy = 0, rotational_energy = 0;   // [J]; translation only, rotation only
+  double potential_energy = 0;                        // [J] in the uniform gravity, zero at the origin
+  std::size_t contacts = 0, body_contacts = 0;        // that touch
+  double coordination_number = 0;                     // contacts per particle, with other particles and with bodies
+  double normal_force = 0, body_normal_force = 0;     // [N] sums of magnitudes
+  double max_overlap_ratio = 0;                       // greatest overlap / smaller radius
+  Index max_overlap_particle = no_index;              // id of a particle in that contact
+  double mean_speed = 0, max_speed = 0;               // [m/s]
+  double highest = 0;                                 // [m] greatest height of a particle's centre, against gravity (z without gravity)
+  std::vector<BodyLoad> loads;                        // by body: from the particles
+};
+
+Measures measure(const Simulation&);
+
+struct FrameOptions { bool contacts = false; };
+Frame make_frame(const Simulation&, const FrameOptions&);
+
+}  // namespace skred

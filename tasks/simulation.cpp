@@ -1,0 +1,130 @@
+#include "tasks/simulation.h"
+#include <cmath>
+#include <fstream>
+#include <sched.h>
+#include "engine/io/state_hash.h"
+#include "tasks/steps.h"
+
+namespace skred {
+
+Simulation::Simulation(World world, Model model, int threads)
+    : world_(std::move(world)),
+      model_(std::move(model)),
+      effects_(decide_effects(world_, model_)),
+      threads_(threads),
+      limit_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)),
+      arena_(threads),
+      timeline_(threads) {
+  Particles& p = std::get<Particles>(world_);
+  const std::size_t n = p.rows();
+  for (auto* c : {&p.force, &p.torque, &p.velocity, &p.angular_velocity}) c->data.resize(n);
+  p.searched.data = p.position.data;
+  p.previous_row.data.resize(n);
+  if (p.id.data.size() != n) {
+    p.id.data.resize(n);
+    for (Index k = 0; k < n; ++k) p.id.data[k] = k;
+  }
+  if (effects_.orientation) p.orientation.data.resize(n);
+  std::get<Incidence>(world_).first.data.assign(n + 1, 0);
+  std::get<Incidence>(world_).first_lower.data.assign(n + 1, 0);
+  std::get<BodyIncidence>(world_).first.data.assign(n + 1, 0);
+
+  Bodies& b = std::get<Bodies>(world_);
+  for (auto* c : {&b.force, &b.torque, &b.acceleration, &b.angular_acceleration, &b.velocity, &b.angular_velocity, &b.inertia})
+    c->data.resize(b.rows());
+  b.mass.data.resize(b.rows());
+  b.searched.data = b.pose.data;
+  model_.bodies_at_start = b.pose.data;
+  model_.pieces.resize(b.rows());
+
+  inside([&] {
+    task_ = std::make_unique<Task>(world_, timeline_);
+    add_sdem(*task_, world_, model_);
+  });
+}
+
+void Simulation::start() {
+  inside([&] {
+    Timeline aside(threads_);                       // not part of the run's profile
+    Task initial(world_, aside);
+    add_sdem(initial, world_, model_, true);
+    initial.step_list();
+  });
+}
+
+void Simulation::step(Execution how) {
+  ++std::get<Clock>(world_).step.data[0];
+  inside([&] {
+    timeline_.begin_step(steps_done());
+    switch (how) {
+      case Execution::graph: task_->step(); break;
+      case Execution::list: task_->step_list(); break;
+      case Execution::serial: task_->step_serial(); break;
+    }
+    timeline_.end_step();
+  });
+}
+
+void Simulation::step_in_order(std::span<const std::size_t> order) {
+  ++std::get<Clock>(world_).step.data[0];
+  inside([&] { task_->step_in_order(order); });
+}
+
+std::vector<Index> rows_by_id(const Particles& p) {
+  std::vector<Index> row(p.rows());
+  for (Index r = 0; r < p.rows(); ++r) row[p.id.data[r]] = r;
+  return row;
+}
+
+std::uint64_t Simulation::state_hash() const {
+  StateHash hash;
+  const Particles& p = std::get<Particles>(world_);
+  const Contacts& c = std::get<Contacts>(world_);
+  const BodyContacts& bc = std::get<BodyContacts>(world_);
+  const Incidence& in = std::get<Incidence>(world_);
+  const BodyIncidence& bin = std::get<BodyIncidence>(world_);
+  hash.add(steps_done());
+  for (const Index r : rows_by_id(p)) {
+    for (const auto* column : {&p.position, &p.velocity, &p.angular_velocity, &p.force, &p.torque}) hash.add(column->data[r]);
+    if (!p.orientation.data.empty()) hash.add(p.orientation.data[r]);
+    // History only of contacts that touch: which others are listed depends on the skin.
+    for (Index k = in.first.data[r]; k < in.first.data[r + 1]; ++k) {
+      if (c.force.data[k] == Vec3{}) continue;
+      hash.add(c.partner.data[k]);
+      if (!c.spring.data.empty()) hash.add(c.spring.data[k]);
+      if (!c.rolling.data.empty()) hash.add(c.rolling.data[k]);
+    }
+    for (Index k = bin.first.data[r]; k < bin.first.data[r + 1]; ++k) {
+      if (!(bc.overlap.data[k] > 0)) continue;
+      hash.add(bc.geometry.data[k]);
+      if (!bc.spring.data.empty()) hash.add(bc.spring.data[k]);
+      if (!bc.rolling.data.empty()) hash.add(bc.rolling.data[k]);
+    }
+  }
+  const Bodies& b = std::get<Bodies>(world_);
+  for (std::size_t k = 0; k < b.rows(); ++k) {
+    hash.add(b.pose.data[k]);
+    hash.add(b.velocity.data[k]);
+    hash.add(b.angular_velocity.data[k]);
+  }
+  return hash.value();
+}
+
+ThreadChoice automatic_threads() {
+  cpu_set_t set;
+  int n = 1;
+  std::string reason = "one processor";
+  if (sched_getaffinity(0, sizeof set, &set) == 0) {
+    n = std::max(1, CPU_COUNT(&set));
+    reason = std::to_string(n) + (n == 1 ? " processor" : " processors") + " in the affinity mask";
+  }
+  std::ifstream quota("/sys/fs/cgroup/cpu.max");    // "max 100000" or "150000 100000"
+  double used = 0, period = 0;
+  if (quota >> used >> period && period > 0) {
+    const int allowed = std::max(1, static_cast<int>(std::ceil(used / period)));
+    if (allowed < n) return {allowed, "the control group's processor quota is " + std::to_string(used / period)};
+  }
+  return {n, reason};
+}
+
+}  // namespace skred

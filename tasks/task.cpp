@@ -1,0 +1,76 @@
+// tasks/task.cpp - deriving the graph of a task, and running it.
+#include "tasks/task.h"
+#include <algorithm>
+#include <ostream>
+
+namespace skred {
+
+namespace {
+const char* conflict(const Uses& a, const Uses& b) {
+  const char* rows = nullptr;                               // a shared column says more than a shared row count
+  for (const Access& x : a)
+    for (const Access& y : b)
+      if (conflicts(x, y)) {
+        if (!x.row_count) return x.name;
+        rows = x.name;
+      }
+  return rows;
+}
+}  // namespace
+
+// Walking i downwards meets near predecessors first, so an order that is already implied is skipped.
+std::vector<Task::Edge> Task::edges() const {
+  std::vector<Edge> out;
+  std::vector<std::bitset<max_kernels>> before(nodes_.size());
+  for (std::size_t j = 0; j < nodes_.size(); ++j)
+    for (std::size_t i = j; i-- > 0;)
+      if (const char* shared = conflict(nodes_[i].uses, nodes_[j].uses); shared && !before[j][i]) {
+        out.push_back({i, j, shared});
+        before[j] |= before[i];
+        before[j].set(i);
+      }
+  return out;
+}
+
+void Task::run(Node& n, bool threaded) {
+  n.observer->begin_serial();
+  const Ticks begin = n.observer->serial_since;
+  const std::size_t rows = n.run(Parallel(threaded, n.observer.get()));
+  n.observer->end_serial();
+  timeline_.call(tbb::this_task_arena::current_thread_index(), n.observer->id, begin, Timeline::now(), rows);
+}
+
+void Task::compile() {
+  flow_.clear();
+  start_.reset();
+  graph_ = std::make_unique<tbb::flow::graph>();
+  start_ = std::make_unique<tbb::flow::broadcast_node<Token>>(*graph_);
+  for (Node& n : nodes_) flow_.emplace_back(*graph_, [this, &n](const Token&) { run(n, true); });
+  std::vector<bool> waits(nodes_.size());
+  for (const Edge& e : edges()) {
+    make_edge(flow_[e.from], flow_[e.to]);
+    waits[e.to] = true;
+  }
+  for (std::size_t k = 0; k < nodes_.size(); ++k)
+    if (!waits[k]) make_edge(*start_, flow_[k]);
+}
+
+void Task::step() {
+  if (!graph_) compile();
+  start_->try_put({});
+  graph_->wait_for_all();
+}
+
+void Task::step_list() { for (Node& n : nodes_) run(n, true); }
+void Task::step_serial() { for (Node& n : nodes_) run(n, false); }
+void Task::step_in_order(std::span<const std::size_t> order) { for (const auto k : order) run(nodes_[k], false); }
+
+void Task::write_dot(std::ostream& os) const {
+  os << "digraph step {\n  rankdir=TB;\n  node [shape=box, style=rounded, fontname=\"sans-serif\"];\n  edge [fontname=\"sans-serif\", fontsize=9];\n";
+  for (const Node& n : nodes_) os << "  \"" << n.name << "\";\n";
+  for (const Edge& e : edges())
+    os << "  \"" << nodes_[e.from].name << "\" -> \"" << nodes_[e.to].name << "\" [label=\"" << e.because << "\"];\n";
+  os << "}\n";
+}
+
+}  // namespace skred

@@ -1,0 +1,29 @@
+// tasks/time_step.h - how large a step of smooth DEM may be, and why.
+#pragma once
+#include <string>
+#include "tasks/model.h"
+
+namespace skred {
+
+struct TimeStepAdvice {
+  double step = 0;              // h [s] recommended, two significant digits
+  double limit = 0;             // h [s]: an explicit step above it is refused unless forced
+  double speed = 0;             // [m/s] impact speed that was reckoned with
+  double overlap = 0;           // [m] greatest overlap reckoned with
+  double contact_time = 0;      // [s] of the fastest contact
+  double stability_limit = 0;   // [s] 2 / omega_max of a dense packing
+  std::string reason;           // one sentence with the numbers
+};
+
+// For a scene whose fastest impact has `speed` [m/s]: the stiffest pair of the smallest particle.
+//   overlap        g = (5 m_eff v^2 / (4 k_H))^(2/5)                        elastic Hertz impact
+//   contact time   t_c = 2.9432 g / v                                       Hertz 1882; Landau & Lifshitz, Elasticity, sec. 9
+//   packing        h < 2 / omega_max, omega_max^2 ~ 8 k_tan / m, k_tan = 2 E* sqrt(R_eff g)     eq (2.6), derived for Hertz
+//   dashpots       the sum over a packing's contacts must not reverse a velocity within a step
+// The step is the smaller of t_c / 40 and a tenth of the packing's limit; the limit is t_c / 10 and half of the packing's.
+TimeStepAdvice advise_time_step(const World&, const Model&, double speed);
+
+// The fastest impact to expect [m/s]: speeds at the start, prescribed motion of bodies, and a fall through the height of the scene.
+double expected_speed(const World&, const Model&);
+
+}  // namespace skred

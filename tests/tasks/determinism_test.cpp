@@ -1,0 +1,153 @@
+// Same scene, any thread count, any order of the kernels, any skin: the same bits. And an effect that is left out equals the
+// full step with its parameter at zero.
+#include <gtest/gtest.h>
+#include <algorithm>
+#include "tests/physics/lab.h"
+
+namespace skred::lab {
+namespace {
+
+// A cloud falling into a turning drum of several kinds of geometry, on a ball that may move: every kernel has work.
+Lab stirred(double friction = 0.91, double rolling = 0.3211, double e = 0.18) {
+  Lab l(e, friction, rolling);
+  l.model.gravity = {0, 0, -9.81};
+  add_cloud(l, 6, 2.1 * pellet_radius, 11, 1.0);
+  const double size = 16 * pellet_radius;
+  const Index drum = l.body(HollowCylinderShape{0.5 * size, size, 0.02}, {}, Motion::kinematic);
+  l.geometry(drum, CylinderShape{0.55 * size, 0.01}, {{0, 0, -0.5 * size - 0.005}, {}});
+  const auto mesh = std::make_shared<Mesh>(
+      std::vector<Vec3>{{-0.2, -0.2, -0.03}, {0.2, -0.2, -0.03}, {0.2, 0.2, -0.035}, {-0.2, 0.2, -0.03}},
+      std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}});
+  l.body(MeshShape{mesh});
+  l.model.pieces = {{MotionPiece{0, 1, {0, 0, 0}, {0, 0, 8}, {}}}, {}};
+  const double ball = 2 * pellet_radius, mass = 5 * sphere_mass(pellet_radius), inertia = 0.4 * mass * ball * ball;
+  l.body(SphereShape{ball}, {{0.01, 0, 7 * pellet_radius}, {}}, Motion::dynamic, mass, {inertia, inertia, inertia});
+  return l;
+}
+
+std::uint64_t hash_after(const Lab& l, int steps, int threads, Execution how) {
+  const auto simulation = l.build(threads);
+  Simulation& s = *simulation;
+  s.start();
+  for (int k = 0; k < steps; ++k) s.step(how);
+  return s.state_hash();
+}
+
+// A random order of the kernels that respects the edges.
+std::vector<std::size_t> shuffled_order(const Task& task, std::mt19937& random) {
+  std::vector<std::size_t> waiting(task.size()), order, ready;
+  for (const auto& e : task.edges()) ++waiting[e.to];
+  for (std::size_t k = 0; k < task.size(); ++k)
+    if (waiting[k] == 0) ready.push_back(k);
+  while (!ready.empty()) {
+    std::swap(ready[random() % ready.size()], ready.back());
+    const std::size_t next = ready.back();
+    ready.pop_back();
+    order.push_back(next);
+    for (const auto& e : task.edges())
+      if (e.from == next && --waiting[e.to] == 0) ready.push_back(e.to);
+  }
+  return order;
+}
+
+TEST(Determinism, SerialListGraphAndShuffledOrder) {
+  const Lab l = stirred();
+  const std::uint64_t reference = hash_after(l, 1000, 1, Execution::serial);
+  for (const int threads : {1, 2, 4}) {
+    EXPECT_EQ(hash_after(l, 1000, threads, Execution::graph), reference) << threads;
+    EXPECT_EQ(hash_after(l, 1000, threads, Execution::list), reference) << threads;
+  }
+  std::mt19937 random(7);
+  for (int trial = 0; trial < 2; ++trial) {
+    const auto simulation = l.build(2);
+    Simulation& s = *simulation;
+    s.start();
+    for (int k = 0; k < 1000; ++k) s.step_in_order(shuffled_order(s.task(), random));
+    EXPECT_EQ(s.state_hash(), reference);
+  }
+}
+
+TEST(Determinism, SkinCellsAndReorderingLeaveNoTrace) {
+  Lab l = stirred();
+  const std::uint64_t reference = hash_after(l, 600, 2, Execution::graph);
+  for (const double skin : {0.02, 0.1, 1.5})
+    for (const int reorder : {0, 1, 7}) {
+      l.model.skin = skin * pellet_radius;
+      l.model.cell = skin > 1 ? 0 : 7.3 * pellet_radius;
+      l.model.reorder_every = reorder;
+      EXPECT_EQ(hash_after(l, 600, 2, Execution::graph), reference) << skin << " " << reorder;
+    }
+}
+
+TEST(Determinism, PeriodicBoxToo) {
+  Lab l(0.3, 0.5, 0.1);
+  add_cloud(l, 6, 2.05 * pellet_radius, 4, 0.8);
+  const double edge = 13 * pellet_radius;
+  l.model.periodic = PeriodicSpace{{-edge / 2, -edge / 2, -edge / 2}, {edge, edge, edge}};
+  const std::uint64_t reference = hash_after(l, 600, 1, Execution::serial);
+  l.model.skin = 0.7 * pellet_radius;
+  l.model.reorder_every = 3;
+  EXPECT_EQ(hash_after(l, 600, 2, Execution::graph), reference);
+}
+
+void expect_same_trajectory(const Lab& a, const Lab& b, int steps) {
+  const auto one = a.build(2), other = b.build(2);
+  Simulation &s = *one, &t = *other;
+  s.start();
+  t.start();
+  EXPECT_NE(s.task().size() * 1000 + s.effects().friction * 8 + s.effects().rolling * 4 + s.effects().damping * 2 + s.effects().alike,
+            t.task().size() * 1000 + t.effects().friction * 8 + t.effects().rolling * 4 + t.effects().damping * 2 + t.effects().alike)
+      << "both steps are the same: nothing is tested";
+  for (int k = 0; k < steps; ++k) {
+    s.step();
+    t.step();
+  }
+  EXPECT_EQ(by_id(s, &Particles::position), by_id(t, &Particles::position));
+  EXPECT_EQ(by_id(s, &Particles::velocity), by_id(t, &Particles::velocity));
+  EXPECT_EQ(by_id(s, &Particles::angular_velocity), by_id(t, &Particles::angular_velocity));
+  EXPECT_EQ(by_id(s, &Particles::force), by_id(t, &Particles::force));
+  EXPECT_EQ(std::get<Bodies>(s.world()).pose.data, std::get<Bodies>(t.world()).pose.data);
+}
+
+struct Parameters { double friction, rolling, e; };
+class EffectLeftOut : public ::testing::TestWithParam<Parameters> {};
+
+TEST_P(EffectLeftOut, EqualsItsParameterAtZero) {
+  const auto [friction, rolling, e] = GetParam();
+  const Lab lean = stirred(friction, rolling, e);
+  Lab full = lean;
+  full.model.all_effects = true;
+  expect_same_trajectory(lean, full, 600);
+}
+
+INSTANTIATE_TEST_SUITE_P(Effects, EffectLeftOut,
+                         ::testing::Values(Parameters{0, 0, 0.18}, Parameters{0.5, 0, 0.18}, Parameters{0, 0.3, 0.18},
+                                           Parameters{0.5, 0.3, 1}, Parameters{0, 0, 1}));
+
+TEST(Effects, AlikeParticlesEqualLookedUpOnes) {
+  Lab l(0.18, 0.5, 0.1);
+  l.model.gravity = {0, 0, -9.81};
+  add_cloud(l, 5, 2.1 * pellet_radius, 2, 1.0, false);
+  l.body(PlaneShape{}, {{0, 0, -0.1}, {}});
+  Lab full = l;
+  full.model.all_effects = true;
+  expect_same_trajectory(l, full, 600);
+}
+
+// Watching orientations must not change the motion.
+TEST(Effects, OrientationOnlyWatches) {
+  const Lab plain = stirred();
+  Lab watched = plain;
+  watched.model.orientation = true;
+  const auto one = plain.build(2), other = watched.build(2);
+  Simulation &s = *one, &t = *other;
+  s.start();
+  t.start();
+  for (int k = 0; k < 300; ++k) s.step(), t.step();
+  EXPECT_EQ(by_id(s, &Particles::position), by_id(t, &Particles::position));
+  EXPECT_EQ(by_id(s, &Particles::angular_velocity), by_id(t, &Particles::angular_velocity));
+  EXPECT_NE(by_id(t, &Particles::orientation)[0], Quaternion{});
+}
+
+}  // namespace
+}  // namespace skred::lab

@@ -1,0 +1,134 @@
+// The runtime: edges from declared access, and the ways to run a list.
+#include "tasks/task.h"
+#include <gtest/gtest.h>
+#include <sstream>
+
+namespace skred {
+namespace {
+
+struct WriteForce {
+  static constexpr const char* name = "write_force";
+  static constexpr std::size_t grain = 4;
+  void operator()(Rows<Particles> rows, Read<&Particles::position> x, Write<&Particles::force> f) const {
+    for (auto p = rows.first; p < rows.last; ++p) f[p] = 2.0 * x[p];
+  }
+};
+struct WriteTorque {
+  static constexpr const char* name = "write_torque";
+  static constexpr std::size_t grain = 4;
+  void operator()(Rows<Particles> rows, Read<&Particles::position> x, Write<&Particles::torque> t) const {
+    for (auto p = rows.first; p < rows.last; ++p) t[p] = 3.0 * x[p];
+  }
+};
+struct Move {
+  static constexpr const char* name = "move";
+  static constexpr std::size_t grain = 4;
+  void operator()(Rows<Particles> rows, Read<&Particles::force> f, Read<&Particles::torque> t, Update<&Particles::position> x) const {
+    for (auto p = rows.first; p < rows.last; ++p) x[p] += 0.01 * (f[p] + t[p]);
+  }
+};
+struct DropLast {
+  static constexpr const char* name = "drop_last";
+  void operator()(Resize<Particles> particles) const {
+    std::apply([&](auto... c) { ([&] { if (!((*particles.table).*c).data.empty()) ((*particles.table).*c).data.pop_back(); }(), ...); },
+               Particles::columns());
+  }
+};
+struct OnlyContacts {
+  static constexpr const char* name = "only_contacts";
+  void operator()(Update<&Contacts::force>) const {}
+};
+struct NamesTwice {
+  static constexpr const char* name = "names_twice";
+  void operator()(Read<&Particles::force>, Update<&Particles::force>) const {}
+};
+
+World spheres(int n) {
+  World w;
+  Particles& p = std::get<Particles>(w);
+  for (int k = 0; k < n; ++k) {
+    p.position.data.push_back({1.0 + k, 2.0 * k, 0.5});
+    p.force.data.push_back({});
+    p.torque.data.push_back({});
+  }
+  return w;
+}
+
+TEST(Task, EdgesFollowFromAccess) {
+  World w = spheres(3);
+  Timeline t(1);
+  Task task(w, t);
+  task.add(WriteForce{});
+  task.add(WriteTorque{});
+  task.add(OnlyContacts{});
+  task.add(Move{});
+  task.add(DropLast{});
+  std::ostringstream seen;
+  for (const auto& e : task.edges()) seen << task.name(e.from) << ">" << task.name(e.to) << "(" << e.because << ") ";
+  EXPECT_EQ(seen.str(), "write_torque>move(position) write_force>move(position) move>drop_last(position) ");
+}
+
+// A table and its first column share an address, and must not be taken for each other.
+struct ReadsFirstColumn {
+  static constexpr const char* name = "reads_first_column";
+  void operator()(Update<&Particles::id>) const {}
+};
+struct CountsRows {
+  static constexpr const char* name = "counts_rows";
+  static constexpr std::size_t grain = 1;
+  void operator()(Rows<Particles>, Read<&Particles::velocity>) const {}
+};
+TEST(Task, RowCountIsNotTheFirstColumn) {
+  World w = spheres(2);
+  Timeline t(1);
+  Task task(w, t);
+  task.add(ReadsFirstColumn{});
+  task.add(CountsRows{});
+  EXPECT_TRUE(task.edges().empty());
+}
+
+TEST(Task, ColumnNamedTwiceIsRefused) {
+  World w = spheres(1);
+  Timeline t(1);
+  Task task(w, t);
+  EXPECT_THROW(task.add(NamesTwice{}), std::logic_error);
+}
+
+TEST(Task, EveryWayOfRunningGivesTheSameBits) {
+  std::vector<std::vector<Vec3>> results;
+  for (int way = 0; way < 4; ++way) {
+    World w = spheres(37);
+    tbb::task_arena arena(3);
+    arena.execute([&] {
+      Timeline t(3);
+      Task task(w, t);
+      task.add(WriteForce{});
+      task.add(WriteTorque{});
+      task.add(Move{});
+      const std::size_t swapped[] = {1, 0, 2};
+      for (int k = 0; k < 50; ++k) {
+        if (way == 0) task.step_serial();
+        if (way == 1) task.step_list();
+        if (way == 2) task.step();
+        if (way == 3) task.step_in_order(swapped);
+      }
+    });
+    results.push_back(std::get<Particles>(w).position.data);
+  }
+  for (int way = 1; way < 4; ++way) EXPECT_EQ(results[way], results[0]) << way;
+}
+
+struct Throws {
+  static constexpr const char* name = "throws";
+  void operator()(Read<&Particles::position>) const { throw std::runtime_error("kernel"); }
+};
+TEST(Task, ExceptionInAKernelReachesTheCaller) {
+  World w = spheres(1);
+  Timeline t(1);
+  Task task(w, t);
+  task.add(Throws{});
+  EXPECT_THROW(task.step(), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace skred
