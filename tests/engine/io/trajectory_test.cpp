@@ -1,0 +1,252 @@
+// tests/engine/io/trajectory_test.cpp - frames survive: edge cases, wrong input, killed runs, full disks.
+// What the files look like to other programs is checked by check_output.py and check_paraview.py.
+#include "engine/io/trajectory.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include "engine/io/hdf5.h"
+#include "tests/engine/io/faults.h"
+#include "tests/engine/io/sample.h"
+
+using namespace skred;
+using faults::message_of;
+using sample::TemporaryFolder;
+using testing::AllOf;
+using testing::Each;
+using testing::ElementsAre;
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+namespace {
+
+// Frames that are whole, according to a reader.
+std::int64_t frames_in(const std::string& folder) {
+  const Hdf5Reader read(folder + "/trajectory.h5");
+  return read.integer_attribute("/VTKHDF/Steps", "NSteps").value();
+}
+
+std::vector<double> flat(const std::vector<Vec3>& column) {
+  std::vector<double> numbers;
+  for (const Vec3& v : column) numbers.insert(numbers.end(), {v.x, v.y, v.z});
+  return numbers;
+}
+
+void write(const std::string& folder, const FrameHeader& header, int frames) {
+  TrajectoryWriter writer(folder, header);
+  for (int k = 0; k < frames; ++k) writer.append(sample::frame(k, header));
+  writer.close();
+}
+
+// No bodies, `count` particles.
+FrameHeader only_particles(std::size_t count) {
+  FrameHeader header = sample::header(count);
+  header.bodies.clear();
+  return header;
+}
+
+}  // namespace
+
+TEST(Trajectory, DoublePrecisionKeepsEveryBit) {
+  const TemporaryFolder folder;
+  FrameHeader header = sample::header();
+  header.single_precision = false;
+  Frame frame = sample::frame(1, header);
+  frame.position[3] = {1.0 / 3, -0.0, 1e-310};
+  TrajectoryWriter writer(folder.path.string(), header);
+  writer.append(sample::frame(0, header));
+  writer.append(frame);
+  writer.close();
+  const Hdf5Reader read(folder / "trajectory.h5");
+  EXPECT_EQ(read.read_doubles("/frames/000001/position"), flat(frame.position));
+  EXPECT_EQ(read.read_doubles("/frames/000001/velocity"), flat(frame.velocity));
+  EXPECT_EQ(read.read_doubles("/particles/radius"), header.radius);        // once for all frames
+  EXPECT_THAT(read.read_integers("/VTKHDF/Steps/PointDataOffsets/radius"), ElementsAre(0, 0));
+  EXPECT_THAT(read.read_integers("/VTKHDF/Steps/PointDataOffsets/velocity"), ElementsAre(0, 5));
+  EXPECT_FALSE(read.has("/particles/orientation"));
+  EXPECT_FALSE(read.has("/contacts/particle_particle/i"));
+}
+
+TEST(Trajectory, NoFrameYet) {
+  const TemporaryFolder folder;
+  write(folder.path.string(), sample::header(), 0);
+  EXPECT_EQ(frames_in(folder.path.string()), 0);
+  const Hdf5Reader read(folder / "trajectory.h5");
+  EXPECT_THAT(read.shape("/particles/velocity"), ElementsAre(0, 3));
+  EXPECT_THAT(read.read_strings("/bodies/names"), ElementsAre("floor", "mixer", "drum", "roller"));
+  EXPECT_FALSE(fs::exists(folder / "trajectory.xdmf"));
+}
+
+TEST(Trajectory, OneFrame) {
+  const TemporaryFolder folder;
+  write(folder.path.string(), sample::header(), 1);
+  EXPECT_EQ(frames_in(folder.path.string()), 1);
+  EXPECT_TRUE(fs::exists(folder / "trajectory.xdmf"));
+  EXPECT_TRUE(fs::exists(folder / "bodies.xdmf"));
+}
+
+TEST(Trajectory, NoParticles) {
+  const TemporaryFolder folder;
+  write(folder.path.string(), sample::header(0), 2);
+  EXPECT_EQ(frames_in(folder.path.string()), 2);
+  const Hdf5Reader read(folder / "trajectory.h5");
+  EXPECT_THAT(read.shape("/particles/position"), ElementsAre(0, 3));
+  EXPECT_THAT(read.read_integers("/VTKHDF/NumberOfPoints"), ElementsAre(0, 0));
+  EXPECT_FALSE(fs::exists(folder / "trajectory.xdmf"));                  // nothing to show
+  EXPECT_TRUE(fs::exists(folder / "bodies.xdmf"));
+}
+
+TEST(Trajectory, NoBodies) {
+  const TemporaryFolder folder;
+  write(folder.path.string(), only_particles(3), 2);
+  EXPECT_EQ(frames_in(folder.path.string()), 2);
+  EXPECT_FALSE(Hdf5Reader(folder / "trajectory.h5").has("/bodies/names"));
+  EXPECT_FALSE(fs::exists(folder / "bodies.xdmf"));
+}
+
+TEST(Trajectory, ABodyOfTwoHundredBoxes) {
+  const TemporaryFolder folder;
+  FrameHeader header = sample::header();
+  header.bodies = {{"drum", "kinematic", {}}};
+  for (int k = 0; k < 200; ++k)
+    header.bodies[0].parts.push_back({BoxShape{{0.1, 0.01, 0.2}}, Pose{{1.0 * k, 0, 0}, rotation_by({0, 0, 0.03 * k})}});
+  write(folder.path.string(), header, 3);
+  const Hdf5Reader read(folder / "trajectory.h5");
+  EXPECT_THAT(read.shape("/bodies/geometry"), ElementsAre(200));
+  EXPECT_THAT(read.shape("/bodies/position"), ElementsAre(3, 1, 3));
+  EXPECT_THAT(read.shape("/bodies/surface/moving/triangles"), ElementsAre(200 * 12, 3));
+  EXPECT_THAT(read.shape("/bodies/surface/moving/vertices"), ElementsAre(3 * 200 * 8, 3));
+  EXPECT_THAT(read.shape("/frames/000002/moving_vertices"), ElementsAre(200 * 8, 3));
+  EXPECT_FALSE(read.has("/bodies/surface/fixed/triangles"));
+}
+
+TEST(Trajectory, APlaneIsDrawnUnderAllParticles) {
+  const TemporaryFolder folder;
+  FrameHeader header = only_particles(5);
+  header.bodies = {{"wall", "static", {{PlaneShape{}, {}}}}};
+  header.single_precision = false;
+  Frame frame = sample::frame(0, header);
+  for (Vec3& x : frame.position) x += Vec3{100, -50, 0};
+  frame.bodies[0].pose = {{0, 0, -1}, rotation_by({0.3, 0, 0})};         // inclined
+  TrajectoryWriter writer(folder.path.string(), header);
+  writer.append(frame);
+  writer.close();
+  const auto corners = Hdf5Reader(folder / "trajectory.h5").read_doubles("/bodies/surface/fixed/vertices");
+  ASSERT_EQ(corners.size(), 12u);
+  double min[2] = {1e9, 1e9}, max[2] = {-1e9, -1e9};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Vec3 local = to_local(frame.bodies[0].pose, {corners[3 * k], corners[3 * k + 1], corners[3 * k + 2]});
+    EXPECT_NEAR(local.z, 0, 1e-12);
+    min[0] = std::min(min[0], local.x), min[1] = std::min(min[1], local.y);
+    max[0] = std::max(max[0], local.x), max[1] = std::max(max[1], local.y);
+  }
+  for (std::size_t p = 0; p < 5; ++p) {
+    const Vec3 local = to_local(frame.bodies[0].pose, frame.position[p]);
+    EXPECT_TRUE(min[0] < local.x && local.x < max[0] && min[1] < local.y && local.y < max[1]);
+  }
+  EXPECT_LT(max[0] - min[0], 10 * 0.5);                                  // the bed is about half a metre wide
+}
+
+TEST(Trajectory, ContactsThatComeAndGo) {
+  const TemporaryFolder folder;
+  const FrameHeader header = sample::header();
+  TrajectoryWriter writer(folder.path.string(), header);
+  for (int k = 0; k < 4; ++k) {
+    Frame frame = sample::frame(k, header);
+    if (k == 2) frame.contacts = {{0, 1, {1, 2, 3}}, {1, 4, {4, 5, 6}}};
+    writer.append(frame);
+  }
+  writer.close();
+  const Hdf5Reader read(folder / "trajectory.h5");
+  EXPECT_THAT(read.read_integers("/contacts/particle_particle/first"), ElementsAre(0, 0, 0, 2));
+  EXPECT_THAT(read.read_integers("/contacts/particle_particle/count"), ElementsAre(0, 0, 2, 0));
+  EXPECT_THAT(read.read_doubles("/contacts/particle_particle/force"), ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_FALSE(read.has("/contacts/particle_body/first"));
+}
+
+TEST(Trajectory, RefusesFramesThatDoNotFit) {
+  const TemporaryFolder folder;
+  const FrameHeader header = sample::header();
+  TrajectoryWriter writer(folder.path.string(), header);
+  const auto refused = [&](const std::function<void(Frame&)>& spoil) {
+    Frame frame = sample::frame(1, header);
+    spoil(frame);
+    return message_of<std::invalid_argument>([&] { writer.append(frame); });
+  };
+  writer.append(sample::frame(0, header));
+  EXPECT_THAT(refused([](Frame& f) { f.velocity.pop_back(); }), HasSubstr("velocity has 4 entries, the header says 5"));
+  EXPECT_THAT(refused([](Frame& f) { f.bodies.clear(); }), HasSubstr("bodies has 0 entries, the header says 4"));
+  EXPECT_THAT(refused([](Frame& f) { f.orientation.resize(5); }), HasSubstr("orientation has 5 entries"));
+  EXPECT_THAT(refused([](Frame& f) { f.time = 0; }), HasSubstr("does not follow"));
+  EXPECT_THAT(refused([](Frame& f) { f.time = std::numeric_limits<double>::quiet_NaN(); }), HasSubstr("does not follow"));
+  writer.append(sample::frame(1, header));                               // the mistakes left no trace
+  writer.close();
+  EXPECT_EQ(frames_in(folder.path.string()), 2);
+  EXPECT_THROW(writer.append(sample::frame(2, header)), std::logic_error);
+  FrameHeader wrong = header;
+  wrong.mass.pop_back();
+  EXPECT_THROW(TrajectoryWriter(folder.path.string(), wrong), std::invalid_argument);
+  EXPECT_THAT(message_of<IoError>([&] { TrajectoryWriter(folder / "none", header); }),
+              HasSubstr("trajectory.h5: cannot create the file"));
+}
+
+TEST(Trajectory, AKilledRunLeavesAllItsFrames) {
+  const TemporaryFolder folder;
+  const FrameHeader header = sample::header();
+  const std::string wrong = faults::in_child([&] {
+    auto* writer = new TrajectoryWriter(folder.path.string(), header);   // never closed: the child just ends
+    for (int k = 0; k < 3; ++k) writer->append(sample::frame(k, header));
+    return std::string();
+  });
+  EXPECT_EQ(wrong, "");
+  EXPECT_EQ(frames_in(folder.path.string()), 3);
+  const Hdf5Reader read(folder / "trajectory.h5");
+  EXPECT_THAT(read.read_doubles("/frames/time"), ElementsAre(0, 0.01, 0.02));
+  EXPECT_EQ(read.read_doubles("/frames/000002/velocity"), flat(sample::frame(2, header).velocity));
+  EXPECT_TRUE(fs::exists(folder / "trajectory.xdmf"));
+}
+
+// A real full disk: the frames before stay readable, and what is written later is refused at once.
+TEST(Trajectory, AFullDiskKeepsTheFramesBefore) {
+  const TemporaryFolder folder;
+  const FrameHeader header = only_particles(5000);
+  const std::string wrong = faults::in_child([&]() -> std::string {
+    if (!faults::mount_small_disk(folder.path.string(), 4 << 20)) return "not permitted";
+    std::string message;
+    int frames = 0;
+    {
+      TrajectoryWriter writer(folder.path.string(), header);
+      for (; frames < 100 && message.empty(); ++frames)
+        message = message_of<IoError>([&] { writer.append(sample::frame(frames, header)); });
+      writer.close();
+    }
+    for (const char* part : {"trajectory.h5: cannot write the frame at", "No space left on device"})
+      if (message.find(part) == std::string::npos) return "message: " + message;
+    const std::int64_t kept = frames_in(folder.path.string());
+    if (frames < 5 || kept != frames - 1) return "frames: " + std::to_string(kept);
+    const Hdf5Reader read(folder / "trajectory.h5");
+    if (read.read_doubles("/frames/000002/velocity") != flat(sample::frame(2, header).velocity)) return "other numbers";
+    return "";
+  });
+  if (wrong == "not permitted") GTEST_SKIP() << "mounting a file system is not permitted here";
+  EXPECT_EQ(wrong, "");
+}
+
+// A quota or a limit that no one can ask about before: the failure comes in the middle of a frame.
+TEST(Trajectory, AWriteThatFailsIsToldOnceAndAgain) {
+  const TemporaryFolder folder;
+  const FrameHeader header = only_particles(5000);
+  const std::string message = faults::in_child([&]() -> std::string {
+    faults::limit_file_size(2 << 20);
+    TrajectoryWriter writer(folder.path.string(), header);
+    std::string first;
+    int k = 0;
+    for (; k < 100 && first.empty(); ++k) first = message_of<IoError>([&] { writer.append(sample::frame(k, header)); });
+    const std::string second = message_of<IoError>([&] { writer.append(sample::frame(k, header)); });
+    writer.close();                      // says nothing new
+    return first + " | " + second;
+  });
+  EXPECT_THAT(message, AllOf(HasSubstr("trajectory.h5: cannot write"), HasSubstr("File too large"),
+                             HasSubstr("an earlier frame could not be written")));
+}
