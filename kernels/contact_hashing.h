@@ -7,6 +7,19 @@
 
 namespace skred {
 
+// The old contacts of a particle, [next, end); empty before the first search.
+struct OldContacts {
+  Index next = 0, end = 0;
+  OldContacts(std::span<const Index> first, Index previous_row) {
+    if (!first.empty()) next = first[previous_row], end = first[previous_row + 1];
+  }
+  // Moves on to the first whose key is at least `key`, and tells whether it is that one.
+  bool find(std::span<const Index> keys, Index key) {
+    while (next < end && keys[next] < key) ++next;
+    return next < end && keys[next] == key;
+  }
+};
+
 template <bool spring, bool rolling> struct ContactHashing {
   static constexpr const char* name = "contact_hashing";
 
@@ -18,16 +31,11 @@ template <bool spring, bool rolling> struct ContactHashing {
     if (!due[0]) return;
     parallel(previous_row.size(), 4096, [&](std::size_t begin, std::size_t end) {
       for (std::size_t p = begin; p < end; ++p) {
-        Index old = 0, old_end = 0;
-        if (!old_first.empty()) {
-          old = old_first[previous_row[p]];
-          old_end = old_first[previous_row[p] + 1];
-        }
+        OldContacts old(old_first, previous_row[p]);
         for (Index c = first[p]; c < first[p + 1]; ++c) {
-          while (old < old_end && old_partner[old] < partner[c]) ++old;
-          const bool known = old < old_end && old_partner[old] == partner[c];
-          if constexpr (spring) new_spring[c] = known ? old_spring[old] : Vec3{};
-          if constexpr (rolling) new_rolling[c] = known ? old_rolling[old] : Vec3{};
+          const bool known = old.find(old_partner, partner[c]);
+          if constexpr (spring) new_spring[c] = known ? old_spring[old.next] : Vec3{};
+          if constexpr (rolling) new_rolling[c] = known ? old_rolling[old.next] : Vec3{};
         }
       }
     });
@@ -49,19 +57,14 @@ template <bool spring, bool rolling> struct ContactHashingBody {
     if (!due[0]) return;
     parallel(previous_row.size(), 4096, [&](std::size_t begin, std::size_t end) {
       for (std::size_t p = begin; p < end; ++p) {
-        Index old = 0, old_end = 0;
-        if (!old_first.empty()) {
-          old = old_first[previous_row[p]];
-          old_end = old_first[previous_row[p] + 1];
-        }
+        OldContacts old(old_first, previous_row[p]);
         for (Index c = first[p]; c < first[p + 1]; ++c) {    // a geometry has the same slots in both lists
-          while (old < old_end && old_geometry[old] < geometry[c]) ++old;
-          const bool known = old < old_end && old_geometry[old] == geometry[c];
-          overlap[c] = known ? old_overlap[old] : 0.0;
-          normal[c] = known ? old_normal[old] : Vec3{};
-          if constexpr (spring) new_spring[c] = known ? old_spring[old] : Vec3{};
-          if constexpr (rolling) new_rolling[c] = known ? old_rolling[old] : Vec3{};
-          if (known) ++old;
+          const bool known = old.find(old_geometry, geometry[c]);
+          overlap[c] = known ? old_overlap[old.next] : 0.0;
+          normal[c] = known ? old_normal[old.next] : Vec3{};
+          if constexpr (spring) new_spring[c] = known ? old_spring[old.next] : Vec3{};
+          if constexpr (rolling) new_rolling[c] = known ? old_rolling[old.next] : Vec3{};
+          if (known) ++old.next;
         }
       }
     });

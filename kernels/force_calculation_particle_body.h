@@ -4,6 +4,7 @@
 #pragma once
 #include <vector>
 #include "engine/access.h"
+#include "kernels/contact_history.h"
 #include "kernels/contact_law.h"
 
 namespace skred {
@@ -31,11 +32,7 @@ template <class Law> struct ForceCalculationParticleBody {
                   If<Law::has_rolling, Update<&BodyContacts::rolling>> rolling) const {
     for (std::size_t c = rows.first; c < rows.last; ++c) {
       if (!(overlap[c] > 0)) {
-        force[c] = {};
-        if constexpr (Law::rotates) torque[c] = {};
-        if constexpr (Law::has_rolling) rolling_torque[c] = {};
-        if constexpr (Law::has_tangential) spring[c] = {};
-        if constexpr (Law::has_rolling) rolling[c] = {};
+        clear_all(c, force, torque, rolling_torque, spring, rolling);
         continue;
       }
       const Index p = particle[c], g = geometry[c], w = body[g];
@@ -58,12 +55,8 @@ template <class Law> struct ForceCalculationParticleBody {
         s.tangential_velocity = u - s.normal_velocity * s.normal;
         s.rolling_velocity = in_tangent_plane(spin[p] - body_spin[w], s.normal);
       }
-      Vec3 no_history;
-      Vec3* spring_c = &no_history;
-      Vec3* rolling_c = &no_history;
-      if constexpr (Law::has_tangential) spring_c = &spring[c];
-      if constexpr (Law::has_rolling) rolling_c = &rolling[c];
-      const ContactForce<double> f = evaluate(law, s, time_step, *spring_c, *rolling_c);
+      Vec3 none;
+      const ContactForce<double> f = evaluate(law, s, time_step, entry(spring, c, none), entry(rolling, c, none));
       force[c] = f.force;
       if constexpr (Law::rotates) torque[c] = f.rolling - arm * f.couple;
       if constexpr (Law::has_rolling) rolling_torque[c] = f.rolling;

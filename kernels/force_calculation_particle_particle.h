@@ -5,6 +5,7 @@
 #pragma once
 #include <vector>
 #include "engine/access.h"
+#include "kernels/contact_history.h"
 #include "kernels/contact_law.h"
 
 namespace skred {
@@ -55,10 +56,7 @@ template <class Law, class Kinds, class Space> struct ForceCalculationParticlePa
       const Vec3 branch = space.shortest(position[a] - position[b]);
       const double distance2 = dot(branch, branch), touch = radius_a + radius_b;
       if (!(distance2 < touch * touch)) {                    // not touching: the contact forgets
-        force[c] = {};
-        if constexpr (Law::rotates) torque_i[c] = torque_j[c] = {};
-        if constexpr (Law::has_tangential) spring[c] = {};
-        if constexpr (Law::has_rolling) rolling[c] = {};
+        clear_all(c, force, torque_i, torque_j, spring, rolling);
         continue;
       }
       const double distance = std::sqrt(distance2);
@@ -79,12 +77,8 @@ template <class Law, class Kinds, class Space> struct ForceCalculationParticlePa
         s.tangential_velocity = u - s.normal_velocity * s.normal;
         s.rolling_velocity = in_tangent_plane(spin[a] - spin[b], s.normal);
       }
-      Vec3 no_history;
-      Vec3* spring_c = &no_history;
-      Vec3* rolling_c = &no_history;
-      if constexpr (Law::has_tangential) spring_c = &spring[c];
-      if constexpr (Law::has_rolling) rolling_c = &rolling[c];
-      const ContactForce<double> f = evaluate(law, s, time_step, *spring_c, *rolling_c);
+      Vec3 none;
+      const ContactForce<double> f = evaluate(law, s, time_step, entry(spring, c, none), entry(rolling, c, none));
       force[c] = f.force;
       if constexpr (Law::rotates) {
         torque_i[c] = f.rolling - arm_a * f.couple;

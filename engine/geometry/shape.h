@@ -16,7 +16,8 @@ struct PlaneShape {};                                                   // the h
 struct SphereShape { double radius; };                                  // [m] > 0
 struct BoxShape { Vec3 half_size; };                                    // [m] each > 0
 struct CylinderShape { double radius, length; };                        // [m] solid, axis z, centred
-struct HollowCylinderShape { double radius, length, thickness; };       // [m] a wall from radius to radius + thickness, axis z, open ends
+// [m] a wall from radius to radius + thickness, axis z, centred, open ends
+struct HollowCylinderShape { double radius, length, thickness; };
 struct MeshShape { std::shared_ptr<const Mesh> mesh; };
 
 using Shape = std::variant<PlaneShape, SphereShape, BoxShape, CylinderShape, HollowCylinderShape, MeshShape>;
