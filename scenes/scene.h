@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <variant>
@@ -58,14 +59,14 @@ struct GeometrySpec {
   Shape shape;                 // meshes are loaded
   std::string material;
   Pose local;                  // in the body's frame
-  std::string mesh_file;       // as written, for the resolved scene
+  std::string mesh_file;       // absolute path, for the resolved scene
   Vec3 mesh_scale{1, 1, 1};
 };
 
 // One piece of a prescribed motion: active for start <= t < end. A body's pieces apply in the order of the list; a
 // rotation's point is carried along by later pieces.
 struct MotionSpec {
-  double start = 0, end = 0;                   // [s]; end may be infinite
+  double start = 0, end = std::numeric_limits<double>::infinity();   // [s]
   Vec3 velocity;                               // [m/s]
   double angular_velocity = 0;                 // [rad/s] about the axis through the point
   Vec3 axis{0, 0, 1}, point;
