@@ -20,7 +20,7 @@ class Overlaps {
   void update() { task_->step_serial(); }
   Particles& particles() { return std::get<Particles>(sim_.world()); }
 
-  // visit(row, row of the partner or no_index, overlap, normal towards the first)
+  // visit(row, row of the partner or no_index, overlap, normal towards the first, row of the body or no_index)
   template <class Visit> void for_each(Visit visit) {
     const Particles& p = particles();
     const Contacts& c = std::get<Contacts>(sim_.world());
@@ -32,11 +32,12 @@ class Overlaps {
         Vec3 branch = p.position.data[r] - p.position.data[q];
         if (sim_.model().periodic) branch = sim_.model().periodic->shortest(branch);
         const double d = norm(branch), overlap = p.radius.data[r] + p.radius.data[q] - d;
-        if (overlap > 0) visit(r, q, overlap, d > 0 ? (1 / d) * branch : Vec3{0, 0, 1});
+        if (overlap > 0) visit(r, q, overlap, d > 0 ? (1 / d) * branch : Vec3{0, 0, 1}, no_index);
       }
       const auto& first_body = std::get<BodyIncidence>(sim_.world()).first.data;
       for (Index k = first_body[r]; k < first_body[r + 1]; ++k)
-        if (b.overlap.data[k] > 0) visit(r, no_index, b.overlap.data[k], b.normal.data[k]);
+        if (b.overlap.data[k] > 0)
+          visit(r, no_index, b.overlap.data[k], b.normal.data[k], std::get<Geometries>(sim_.world()).body.data[b.geometry.data[k]]);
     }
   }
 
@@ -56,10 +57,10 @@ class Overlaps {
 
 StartOverlap greatest(Overlaps& o) {
   StartOverlap s;
-  o.for_each([&](Index r, Index q, double overlap, const Vec3&) {
+  o.for_each([&](Index r, Index q, double overlap, const Vec3&, Index body) {
     const Particles& p = o.particles();
     const double smaller = q == no_index ? p.radius.data[r] : std::min(p.radius.data[r], p.radius.data[q]);
-    if (overlap / smaller > s.ratio) s = {overlap / smaller, p.id.data[r]};
+    if (overlap / smaller > s.ratio) s = {overlap / smaller, p.id.data[r], q == no_index ? no_index : p.id.data[q], body};
   });
   return s;
 }
@@ -87,7 +88,7 @@ Relaxation relax(World& world, const Model& model, double limit, int most_sweeps
     const std::size_t n = o.particles().rows();
     std::vector<Vec3> shift(n);
     std::vector<int> count(n);
-    o.for_each([&](Index r, Index q, double overlap, const Vec3& normal) {
+    o.for_each([&](Index r, Index q, double overlap, const Vec3& normal, Index) {
       shift[r] += ((q == no_index ? 1.0 : 0.5) * overlap) * normal;
       ++count[r];
       if (q == no_index) return;

@@ -10,8 +10,9 @@ struct Relaxation {
   double longest_shift = 0;                       // [m] of a particle
 };
 
-// Greatest overlap / smaller radius of the state as it stands, and an id of a particle in that contact.
-struct StartOverlap { double ratio = 0; Index particle = no_index; };
+// Greatest overlap / smaller radius of the state as it stands, the id of a particle in that contact, and the id of its partner
+// or the row of the body.
+struct StartOverlap { double ratio = 0; Index particle = no_index, partner = no_index, body = no_index; };
 StartOverlap start_overlap(const World& world, const Model& model);
 
 // Moves particles - not bodies - by geometry alone, half of each overlap per particle and the whole of it from a body, until no

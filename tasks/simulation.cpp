@@ -55,13 +55,11 @@ void Simulation::start() {
 void Simulation::step(Execution how) {
   ++std::get<Clock>(world_).step.data[0];
   inside([&] {
-    timeline_.begin_step(steps_done());
     switch (how) {
       case Execution::graph: task_->step(); break;
       case Execution::list: task_->step_list(); break;
       case Execution::serial: task_->step_serial(); break;
     }
-    timeline_.end_step();
   });
 }
 

@@ -1,0 +1,12 @@
+// scenes/build.h - from a scene to the world and the model that a simulation starts from.
+#pragma once
+#include "scenes/fill.h"
+#include "scenes/scene.h"
+#include "tasks/model.h"
+
+namespace skred {
+
+World build_world(const Scene&, const ParticleSet&);
+Model build_model(const Scene&);                    // without the time step
+
+}  // namespace skred

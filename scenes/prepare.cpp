@@ -1,0 +1,122 @@
+#include "scenes/prepare.h"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include "kernels/restitution.h"
+#include "scenes/build.h"
+#include "scenes/errors.h"
+#include "scenes/fill.h"
+#include "tasks/relax.h"
+
+namespace skred {
+
+namespace {
+
+void check_restitution(const Scene& scene, const Model& model) {
+  const std::size_t n = model.pairs.count;
+  for (std::size_t a = 0; a < n; ++a)
+    for (std::size_t b = a; b < n; ++b)
+      if (model.pairs(a, b).restitution < least_restitution)
+        throw SceneRefused(fmt::format("materials '{}' and '{}': restitution {:g} is out of range for smooth DEM: {:g} .. 1 "
+                                       "(a lower one needs a dashpot that no step can resolve)",
+                                       scene.materials[a].name, scene.materials[b].name, model.pairs(a, b).restitution, least_restitution));
+}
+
+void check_periodic(const Scene& scene, const World& world, const Model& model) {
+  const double least = 2 * (2 * largest_radius(world) + skin_of(world, model));
+  for (int a = 0; a < 3; ++a)
+    if (const PeriodicSpec& p = scene.periodic[a]; p.on && p.max - p.min < least)
+      throw SceneRefused(fmt::format("periodic: {}: a length of {:g} m is too short: at least {:g} m, twice the reach of a particle "
+                                     "(two diameters and the search skin), or a particle meets two images of another",
+                                     "xyz"[a], p.max - p.min, least));
+}
+
+constexpr double most_steps = 1e15;                 // of a run: centuries, and exact in a double
+
+void choose_time_step(const Scene& scene, bool force, Prepared& p) {
+  const double speed = scene.expected_speed.value_or(expected_speed(p.world, p.model));
+  p.advice = advise_time_step(p.world, p.model, speed);
+  if (!std::isfinite(p.advice.step) || !(p.advice.step > 0) || !std::isfinite(p.advice.limit))
+    throw SceneRefused(fmt::format("time_step: none can be found: {}; radii, speeds, gravity or moduli (in SI units) are beyond what "
+                                   "numbers can hold", p.advice.reason));
+  if (!scene.time_step) {
+    p.model.time_step = std::min(p.advice.step, scene.end_time);
+    p.notes.push_back(fmt::format("time step {:g} s (auto): {}", p.model.time_step, p.advice.reason));
+    return;
+  }
+  p.model.time_step = *scene.time_step;
+  if (p.model.time_step <= p.advice.limit) {
+    p.notes.push_back(fmt::format("time step {:g} s (given; auto would be {:g} s, the limit is {:.2g} s)", p.model.time_step,
+                                  p.advice.step, p.advice.limit));
+    return;
+  }
+  const std::string why = fmt::format("time_step: {:g} s is too large: at most {:.3g} s ({}), recommended {:g} s", p.model.time_step,
+                                      p.advice.limit, p.advice.reason, p.advice.step);
+  if (!force) throw SceneRefused(why + "; --force runs it all the same, and `expected_speed` tells of slower impacts");
+  p.warnings.push_back(why + "; forced");
+}
+
+void check_end_time(const Scene& scene, const Prepared& p) {
+  if (const double steps = scene.end_time / p.model.time_step; !(steps <= most_steps))
+    throw SceneRefused(fmt::format("end_time: {:g} s takes {:.3g} steps of {:g} s, allowed {:g}", scene.end_time, steps,
+                                   p.model.time_step, most_steps));
+}
+
+// "particle 3 and particle 7", "particle 3 and body 'floor'"
+std::string pair_text(const Scene& scene, const StartOverlap& s) {
+  const std::string other = s.body == no_index ? fmt::format("particle {}", s.partner)
+                                               : fmt::format("body '{}'", scene.bodies[s.body].name);
+  return fmt::format("particle {} and {}", s.particle, other);
+}
+
+void check_start(const Scene& scene, Prepared& p) {
+  const StartOverlap found = start_overlap(p.world, p.model);
+  if (found.ratio <= scene.start.overlap_limit) return;
+  if (!scene.start.relax)
+    throw SceneRefused(fmt::format("overlap at the start: {} by {:.3g} of the smaller radius, allowed {:.3g} "
+                                   "(start.overlap_limit); `start: {{relax: true}}` pushes particles apart first",
+                                   pair_text(scene, found), found.ratio, scene.start.overlap_limit));
+  const Relaxation r = relax(p.world, p.model, scene.start.overlap_limit);
+  if (r.overlap_after > scene.start.overlap_limit)
+    throw SceneRefused(fmt::format("particles overlap at the start, and {} sweeps of relaxation brought the greatest overlap only from "
+                                   "{:.3g} to {:.3g} of the smaller radius, allowed {:.3g}: there may be no room for them",
+                                   r.sweeps, r.overlap_before, r.overlap_after, scene.start.overlap_limit));
+  p.notes.push_back(fmt::format("relaxed the start in {} sweeps: greatest overlap {:.3g} -> {:.3g} of the smaller radius, "
+                                "longest shift {:.3g} mm", r.sweeps, r.overlap_before, r.overlap_after, r.longest_shift * 1e3));
+}
+
+void check_bounds(const Scene& scene, const World& world) {
+  if (!scene.bounds || scene.out_of_bounds != OutOfBounds::stop) return;
+  const auto& x = std::get<Particles>(world).position.data;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    const Bounds& b = *scene.bounds;
+    if (x[k].x < b.min.x || x[k].x > b.max.x || x[k].y < b.min.y || x[k].y > b.max.y || x[k].z < b.min.z || x[k].z > b.max.z)
+      throw SceneRefused(fmt::format("particle {} starts at ({:g}, {:g}, {:g}) m, outside the bounds", k, x[k].x, x[k].y, x[k].z));
+  }
+}
+
+}  // namespace
+
+void require_method(const Scene& scene) {
+  if (scene.method == Method::ndem)
+    throw SceneRefused("method: nonsmooth DEM (ndem) is not in this version; smooth DEM (sdem) is");
+}
+
+std::int64_t steps_in(double interval, double time_step) {
+  return std::max<std::int64_t>(1, std::llround(std::min(interval / time_step, most_steps)));
+}
+
+Prepared prepare(const Scene& scene, bool force_time_step) {
+  require_method(scene);
+  const ParticleSet set = make_particles(scene);
+  Prepared p{build_world(scene, set), build_model(scene), {}, {}, {}};
+  check_restitution(scene, p.model);
+  check_periodic(scene, p.world, p.model);
+  check_bounds(scene, p.world);
+  choose_time_step(scene, force_time_step, p);
+  check_end_time(scene, p);
+  if (p.model.normal_law) check_start(scene, p);
+  return p;
+}
+
+}  // namespace skred

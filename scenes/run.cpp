@@ -1,0 +1,304 @@
+#include "scenes/run.h"
+#include <algorithm>
+#include <chrono>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+#include "engine/io/io_error.h"
+#include "engine/io/state_hash.h"
+#include "profiling/chrome_trace.h"
+#include "profiling/profile_table.h"
+#include "profiling/timeline_svg.h"
+#include "profiling/write_file.h"
+#include "scenes/errors.h"
+#include "scenes/interrupt.h"
+#include "scenes/machine.h"
+#include "scenes/prepare.h"
+#include "scenes/progress.h"
+#include "scenes/recorder.h"
+#include "scenes/schema.h"
+
+namespace skred {
+
+namespace {
+
+std::string hash_text(std::uint64_t h) { return fmt::format("{:016x}", h); }
+
+std::shared_ptr<spdlog::logger> make_log(const OutputFolder& folder, const RunOptions& o) {
+  auto screen = std::make_shared<spdlog::sinks::stderr_color_sink_mt>();
+  screen->set_level(o.quiet ? spdlog::level::warn : o.verbose ? spdlog::level::debug : spdlog::level::info);
+  screen->set_pattern("%^%v%$");
+  auto file = std::make_shared<spdlog::sinks::basic_file_sink_mt>(folder.file("log.txt").string(), true);
+  file->set_level(spdlog::level::debug);
+  file->set_pattern("%Y-%m-%d %H:%M:%S %L %v");
+  auto log = std::make_shared<spdlog::logger>("run", spdlog::sinks_init_list{screen, file});
+  log->set_level(spdlog::level::debug);
+  log->flush_on(spdlog::level::info);
+  log->set_error_handler([](const std::string&) {});         // a full disk is reported by the writers of the results
+  return log;
+}
+
+// What the run loop works on.
+struct Run {
+  const Scene& scene;
+  const RunOptions& options;
+  Simulation& sim;
+  Recorder& recorder;
+  spdlog::logger& log;
+  Progress& progress;
+  std::int64_t steps = 0, every_frame = 0, every_row = 0;
+  Measures last;
+  std::int64_t reported_outside = 0;
+  double smallest_radius = 0;                                // [m]
+};
+
+std::string likely_cause(const Run& r) {
+  return fmt::format("likely causes: a time step that is too large ({:g} s), particles that overlapped or were squeezed far beyond the "
+                     "elastic range, a body that moves too fast", r.sim.model().time_step);
+}
+
+std::string when(const Run& r) { return fmt::format("t = {:g} s, step {}", r.sim.time(), r.sim.steps_done()); }
+
+// Dynamic bodies go where forces take them, like particles. Throws NumericalFailure.
+void check_bodies(const Run& r) {
+  const Bodies& b = std::get<Bodies>(r.sim.world());
+  for (std::size_t k = 0; k < b.rows(); ++k) {
+    if (b.motion.data[k] != Motion::dynamic) continue;
+    const Vec3 x = b.pose.data[k].position, v = b.velocity.data[k];
+    const auto fail = [&](const std::string& what) {
+      throw NumericalFailure(fmt::format("{}, body '{}' at ({:g}, {:g}, {:g}) m with ({:g}, {:g}, {:g}) m/s: {}; likely causes: a mass or "
+                                         "inertia too small for the time step ({:g} s), or a start that is too fast",
+                                         when(r), r.scene.bodies[k].name, x.x, x.y, x.z, v.x, v.y, v.z, what, r.sim.model().time_step));
+    };
+    if (!is_finite(x) || !is_finite(v) || !is_finite(b.angular_velocity.data[k])) fail("not a number");
+    if (!(norm(v) * r.sim.model().time_step <= r.smallest_radius))
+      fail(fmt::format("in one step it moves more than the smallest particle's radius ({:g} m), and through particles", r.smallest_radius));
+  }
+}
+
+// Tells of particles outside when the first is, and whenever their number has doubled: they may be many.
+void report_outside(Run& r) {
+  const std::int64_t now = std::get<Search>(r.sim.world()).outside.data[0];
+  if (now < std::max<std::int64_t>(1, 2 * r.reported_outside)) return;
+  r.reported_outside = now;
+  r.progress.finish();
+  r.log.warn("t = {:g} s: {} particle{} outside the bounds", r.sim.time(), now, now == 1 ? "" : "s");
+}
+
+// Throws NumericalFailure.
+void check_trouble(Run& r) {
+  report_outside(r);
+  check_bodies(r);
+  const Search& s = std::get<Search>(r.sim.world());
+  if (s.trouble.data[0] == Trouble::none) return;
+  const Particles& p = std::get<Particles>(r.sim.world());
+  const Index id = s.culprit.data[0];
+  const Index row = rows_by_id(p)[id];
+  const Vec3 x = p.position.data[row], v = p.velocity.data[row];
+  const std::string where = fmt::format("{}, particle {} at ({:g}, {:g}, {:g}) m with ({:g}, {:g}, {:g}) m/s", when(r), id, x.x, x.y, x.z,
+                                        v.x, v.y, v.z);
+  switch (s.trouble.data[0]) {
+    case Trouble::not_finite: throw NumericalFailure(where + ": not a number; " + likely_cause(r));
+    case Trouble::too_fast:
+      throw NumericalFailure(where + fmt::format(": it moves more than half its radius ({:g} m) in one step; ", p.radius.data[row]) + likely_cause(r));
+    default:
+      throw NumericalFailure(where + ": it left the bounds of the scene; likely causes: a gap between walls, a wall that ends too low, "
+                                     "or a particle pressed through one (`bounds: {action: report}` goes on)");
+  }
+}
+
+void take_row(Run& r) {
+  r.last = r.recorder.statistics();
+  if (r.last.max_overlap_ratio > r.scene.limits.overlap)
+    throw NumericalFailure(fmt::format("{}, particle {}: overlap of {:.3g} of the radius, allowed {:g} (limits.overlap); {}", when(r),
+                                       r.last.max_overlap_particle, r.last.max_overlap_ratio, r.scene.limits.overlap, likely_cause(r)));
+  if (!std::isfinite(r.last.kinetic_energy + r.last.rotational_energy))   // what the last step did, no later one sees
+    throw NumericalFailure(fmt::format("{}: the kinetic energy is not a number; {}", when(r), likely_cause(r)));
+}
+
+void count_for_trace(Run& r, const Measures& m) {
+  r.sim.timeline().counter("contacts", double(m.contacts + m.body_contacts));
+  r.sim.timeline().counter("kinetic energy [J]", m.kinetic_energy + m.rotational_energy);
+}
+
+nlohmann::json make_summary(const Run& r, const std::string& outcome, double wall, const Timeline::Totals& totals) {
+  const std::size_t particles = std::get<Particles>(r.sim.world()).rows();
+  const double steps = double(r.sim.steps_done());
+  return {{"scene", r.scene.name}, {"method", "sdem"}, {"outcome", outcome}, {"threads", r.sim.threads()}, {"particles", particles},
+          {"bodies", std::get<Bodies>(r.sim.world()).rows()}, {"steps", r.sim.steps_done()}, {"time_step", r.sim.model().time_step},
+          {"simulated_time", r.sim.time()}, {"wall_time", wall},
+          {"particle_steps_per_second", wall > 0 ? steps * double(particles) / wall : 0.0},
+          {"contacts", r.last.contacts + r.last.body_contacts}, {"max_overlap_ratio", r.last.max_overlap_ratio},
+          {"kinetic_energy", r.last.kinetic_energy + r.last.rotational_energy}, {"state_hash", hash_text(r.sim.state_hash())},
+          {"frames", r.recorder.frames()}, {"searches", std::get<Search>(r.sim.world()).count.data[0]},
+          {"particles_outside_bounds", std::get<Search>(r.sim.world()).outside.data[0]}, {"peak_memory", peak_memory()}, {"profiling_cost", totals.cost},
+          {"software", "skred " SKRED_VERSION}, {"processor", processor_name()}, {"compiler", compiler_name()},
+          {"load_average", load_average()}, {"kernels", profile_json(totals)}};
+}
+
+void write_pictures(const Run& r) {
+  const Timeline& t = r.sim.timeline();
+  if (!r.options.trace.empty()) {
+    TraceInfo info;
+    info.scene = r.scene.name;
+    info.method = "SDEM";
+    info.software = "skred " SKRED_VERSION;
+    info.processor = processor_name();
+    info.other = {{"compiler", compiler_name()}, {"particles", std::to_string(std::get<Particles>(r.sim.world()).rows())}};
+    if (t.steps().empty()) r.log.warn("trace: none of the steps asked for was run: the run has {}", r.sim.steps_done());
+    write_chrome_trace(r.options.trace, t, info);
+    r.log.info("trace: {} ({} steps)", r.options.trace, t.steps().size());
+  }
+  if (!r.options.timeline.empty()) {
+    TimelineCaption c;
+    c.scene = r.scene.name;
+    c.method = "SDEM";
+    c.processor = processor_name();
+    c.particles = std::int64_t(std::get<Particles>(r.sim.world()).rows());
+    c.contacts = std::int64_t(r.last.contacts + r.last.body_contacts);
+    c.parts = {{"collision detection and hashing", {"check_motion", "reorder", "broadphase", "contact_hashing", "broadphase_body",
+                                                    "contact_hashing_body", "contact_geometry_body"}},
+               {"force calculation and application", {"force_calculation_particle_particle", "force_calculation_particle_body",
+                                                      "force_application_particle", "force_application_body"}}};
+    write_timeline_svg(r.options.timeline, t, c);
+    r.log.info("timeline: {}", r.options.timeline);
+  }
+}
+
+// Keeps the events of the asked-for steps, or of the last fifty.
+void start_trace(const RunOptions& o, Simulation& sim, std::int64_t steps) {
+  if (o.trace.empty() && o.timeline.empty()) return;
+  constexpr std::int64_t last_steps = 50;
+  if (o.trace_steps) sim.timeline().trace(o.trace_steps->first, o.trace_steps->second);
+  else sim.timeline().trace(1, steps + 1, last_steps);
+}
+
+// The loop over the steps. Returns whether the run reached its end.
+bool advance(Run& r, const InterruptGuard& interrupt) {
+  const std::int64_t from = r.options.trace_steps ? r.options.trace_steps->first : r.steps - 50;
+  const std::int64_t to = r.options.trace_steps ? r.options.trace_steps->second : r.steps + 1;
+  const bool traced = !r.options.trace.empty();
+  while (r.sim.steps_done() < r.steps) {
+    const std::int64_t n = r.sim.steps_done() + 1;
+    r.sim.timeline().begin_step(n);                          // sampling and copying frames are part of the step that does them
+    r.sim.step();
+    check_trouble(r);
+    if (n % r.every_row == 0 || n == r.steps) take_row(r);
+    if (r.every_frame > 0 && n % r.every_frame == 0) r.recorder.frame();
+    if (traced && n >= from && n < to) count_for_trace(r, measure(r.sim));
+    r.sim.timeline().end_step();
+    if (r.progress.due()) {
+      const Measures m = measure(r.sim);
+      r.progress.show({r.sim.time(), m.kinetic_energy, m.max_overlap_ratio, m.contacts + m.body_contacts, n});
+    }
+    if (interrupt.asked() && n < r.steps) return false;
+  }
+  return true;
+}
+
+// Before the run rather than after it: may a file be written there? In the output folder it may. Throws IoError.
+void check_writable(const std::string& file, const std::filesystem::path& output) {
+  namespace fs = std::filesystem;
+  const fs::path path(file);
+  if (file.empty() || fs::absolute(path).parent_path().lexically_normal() == (fs::absolute(output) / "").lexically_normal().parent_path()) return;
+  std::error_code ignored;
+  const bool there = fs::exists(path, ignored);
+  if (!std::ofstream(path, std::ios::app)) throw IoError(fmt::format("{}: cannot be written: {}", file, std::strerror(errno)));
+  if (!there) fs::remove(path, ignored);
+}
+
+}  // namespace
+
+int run_scene(const Scene& scene, const RunOptions& options) {
+  const std::filesystem::path output = options.output.empty() ? OutputFolder::next_free("results/" + scene.name + "-sdem")
+                                                              : std::filesystem::path(options.output);
+  for (const std::string& file : {options.trace, options.timeline, options.summary}) check_writable(file, output);
+  Prepared prepared = prepare(scene, options.force);         // a scene that is refused leaves no folder, and an old one alone
+  const OutputFolder folder(output, options.overwrite);
+  const auto log_owner = make_log(folder, options);
+  spdlog::logger& log = *log_owner;
+  const std::vector<std::string> notes = prepared.notes, warnings = prepared.warnings;
+
+  Simulation sim(std::move(prepared.world), std::move(prepared.model), options.threads);
+  const std::size_t particles = std::get<Particles>(sim.world()).rows();
+  log.info("skred {}: scene '{}', smooth DEM, {} particles, {} bodies with {} geometries", SKRED_VERSION, scene.name, particles,
+           std::get<Bodies>(sim.world()).rows(), std::get<Geometries>(sim.world()).rows());
+  log.info("threads {}{}", sim.threads(), options.threads_reason.empty() ? "" : " (auto: " + options.threads_reason + ")");
+  for (const std::string& n : notes) log.info(n);
+  for (const std::string& w : warnings) log.warn("warning: {}", w);
+  for (const Effects::Reason& e : sim.effects().reasons) log.debug("{}: {}, {}", e.effect, e.in ? "in" : "out", e.why);
+  log.info("output folder {}", folder.path().string());
+  folder.write_text_atomically("scene.resolved.yaml", resolved_yaml(scene));
+
+  const auto begin = std::chrono::steady_clock::now();
+  InterruptGuard interrupt;
+  sim.start();
+  Recorder recorder(scene, sim, folder);
+  Progress progress(scene.end_time, particles, options.quiet, [&](const std::string& line) { log.info(line); });
+  Run r{scene, options, sim, recorder, log, progress};
+  r.smallest_radius = smallest_radius(sim.world());
+  r.steps = steps_in(scene.end_time, sim.model().time_step);
+  r.every_frame = scene.output.frame_interval > 0 ? steps_in(scene.output.frame_interval, sim.model().time_step) : 0;
+  r.every_row = scene.output.statistics_interval > 0 ? steps_in(scene.output.statistics_interval, sim.model().time_step)
+                                                     : std::max<std::int64_t>(1, r.steps / 100);
+  start_trace(options, sim, r.steps);
+
+  int code = exit_ok;
+  std::string outcome = "finished";
+  const auto failed = [&](int as, const std::string& what, const std::exception& e) {
+    progress.finish();
+    log.error("error: {}", e.what());
+    code = as;
+    outcome = what;
+  };
+  try {
+    check_trouble(r);
+    take_row(r);
+    recorder.frame();
+    if (!advance(r, interrupt)) {
+      progress.finish();
+      log.warn("interrupted at t = {:g} s after {} steps; writing what there is", sim.time(), sim.steps_done());
+      code = exit_interrupted;
+      outcome = "interrupted";
+    }
+  } catch (const NumericalFailure& e) {
+    failed(exit_numerical, "numerical failure", e);
+  } catch (const std::exception& e) {                        // the disk, or memory
+    failed(exit_io, "output error", e);
+  }
+  progress.finish();
+  const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+
+  try {                                                      // whatever happened, keep what there is
+    if (code != exit_io) {
+      r.last = recorder.statistics();
+      recorder.frame();
+      recorder.finish();
+    }
+  } catch (const std::exception& e) {
+    failed(code == exit_numerical ? code : exit_io, code == exit_numerical ? outcome : "output error", e);
+  }
+  const Timeline::Totals totals = sim.timeline().totals();
+  try {
+    const std::string summary = make_summary(r, outcome, wall, totals).dump(2) + "\n";
+    folder.write_text_atomically("summary.json", summary);
+    if (!options.summary.empty()) write_file(options.summary, [&](std::ostream& out) { out << summary; });
+    write_pictures(r);
+  } catch (const std::exception& e) {
+    failed(code == exit_ok ? exit_io : code, outcome, e);
+  }
+  log.info("\n{}", profile_table(totals, sim.threads()));
+  const double rate = wall > 0 ? double(sim.steps_done()) * double(particles) / wall : 0;
+  log.info("{} at t = {:g} s: {} steps in {}, {:.2f} million particle-steps per second, state hash {}", outcome, sim.time(), sim.steps_done(),
+           duration_text(wall), rate * 1e-6, hash_text(sim.state_hash()));
+  return code;
+}
+
+}  // namespace skred

@@ -1,0 +1,240 @@
+#!/usr/bin/env python3
+"""tests/system/failure_test.py - bad input, full disks, interruptions and runs that become unphysical: the exit code, the words of
+the message, and what is left on the disk. See program.py."""
+import os
+import resource
+import signal
+import subprocess
+
+from program import FILES, LIMIT, SMALL, Skip, check_trajectory, contains, main, read, scene, summary, wait_for, write
+
+LIST = "particles=[{list: [%s]}]"
+PAIR = LIST % "{radius: 1 cm, position: [0, 0, 2 cm]}, {radius: 1 cm, position: [0, 0, 3.5 cm]}"
+
+
+# The scene file ------------------------------------------------------------------------------------------------------
+
+
+def case_unknown_key(program):
+    write("s.yaml", SMALL + "gravty: [0, 0, -1]\n")
+    program("run", "s.yaml", code=3, says=["s.yaml:11:1: error: unknown key 'gravty'; did you mean 'gravity'?", "gravty: [0, 0, -1]\n  ^"])
+    program.small("materials.glass.frictoin=1", code=3, says=["--set materials.glass.frictoin=1", "did you mean 'friction'?"])
+    program.small("a=10", code=3, says=["no key or parameter 'a'"])
+
+
+def case_wrong_unit(program):
+    write("s.yaml", SMALL.replace("5 MPa", "5 mm").replace("0.02 s", "0.02 m"))
+    program("run", "s.yaml", code=3, says=["s.yaml:1:11: error: end_time: '0.02 m' is a length [m]; expected a time [s]",
+                                           "s.yaml:3:", "youngs_modulus: '5 mm' is a length"])
+
+
+def case_out_of_range(program):
+    program.small(LIST % "{radius: -1 cm, position: [0, 0, 1]}", code=3, says=["radius: -1 cm is out of range: must be > 0 m"])
+    program.small("materials.glass.restitution=1.5", code=3, says=["restitution", "1.5", "out of range"])
+    program.small("materials.glass.restitution=0", code=3, says=["'glass'", "restitution 0 is out of range", "0.01 .. 1"])
+    program.small("periodic.x=[0, 4 cm]", code=3, says=["periodic: x: a length of 0.04 m is too short: at least 0.046 m"])
+    program.small("end_time=1e300", code=3, says=["end_time: 1e+300 s takes", "steps", "allowed 1e+15"])
+    program.small("time_step=1e-300", code=3, says=["end_time: 0.02 s takes", "steps of 1e-300 s"])
+    for setting in ("gravity=[0, 0, 1e308]", LIST % "{radius: 1 cm, position: [0, 0, 1], velocity: [1e300, 0, 0]}",
+                    LIST % "{radius: 1e-120, position: [0, 0, 1]}"):
+        program.small(setting, code=3, says=["time_step: none can be found", "SI units"])
+
+
+def case_overlapping_start(program):
+    program.small(PAIR, code=3, says=["particle 0 and particle 1", "0.5 of the smaller radius", "allowed 0.01", "relax: true"])
+    program.small(LIST % "{radius: 1 cm, position: [0, 0, 5 mm]}", code=3, says=["particle 0 and body 'floor' by 0.5"])
+    program.small(PAIR, "start.relax=true", says=["relaxed the start", "greatest overlap 0.5 ->"])
+    same = ", ".join(["{radius: 1 cm, position: [0, 0, 2 cm]}"] * 3)
+    program.small(LIST % same, "start.relax=true", options=["--overwrite"], says=["relaxed the start", "greatest overlap 2 ->", "finished"])
+    cage = "bodies=[{name: low, geometries: [{plane: {}}]}, {name: high, geometries: [{plane: {normal: [0, 0, -1], point: [0, 0, 1 cm]}}]}]"
+    program.small(LIST % "{radius: 1 cm, position: [0, 0, 5 mm]}", cage, "start.relax=true", code=3, says=["may be no room"],
+                  output="none")
+    assert not os.path.exists("none")
+
+
+def case_missing_file(program):
+    program.run("no.yaml", code=3, says=["no.yaml", "No such file"])
+    program.run("/tmp", code=3, says=["/tmp", "it is a folder"])
+    program.small("particles=[{file: {path: no.csv}}]", code=3, says=["there is no file", "no.csv"])
+    program.small("bodies=[{name: b, geometries: [{mesh: {file: no.obj}}]}]", code=3, says=["there is no file", "no.obj"])
+
+
+def case_bad_mesh(program):
+    corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
+    for name, text, why in (("degenerate.obj", corners + "f 1 2 2\n", "triangle 1: degenerate"),
+                            ("none.obj", corners, "the mesh has no triangles"),
+                            ("beyond.obj", corners + "f 1 2 9\n", "refers to vertex 9"),
+                            ("nan.obj", corners.replace("0 0 0", "0 0 nan") + "f 1 2 3\n", "not a finite number"),
+                            ("cut.stl", bytes(80) + b"\x02\0\0\0" + bytes(50), "truncated")):
+        write(name, text)
+        program.small("bodies=[{name: b, geometries: [{mesh: {file: %s}}]}]" % name, code=3, says=[name, why])
+    assert not os.path.exists("out")
+
+
+def case_bad_table(program):
+    for text, why in (("x,y,z,radius\n0,0,nan,0.01\n", ["p.csv:2", "column z: 'nan' is not a finite number"]),
+                      ("id,x,y,z,radius\n1,0,0,1,0.01\n1,0,0,2,0.01\n", ["p.csv:3", "column id: 1 was given before, in line 2"]),
+                      ("x,y,z,radius\n0,0,1,-0.01\n", ["p.csv:2", "radius", "must be > 0 m"]),
+                      ("x,y,z,radius\n0,0,1\n", ["p.csv:2", "3 cells; the header has 4"]),
+                      ("", ["p.csv", "the file is empty"])):
+        write("p.csv", text)
+        program.small("particles=[{file: {path: p.csv}}]", code=3, says=why)
+
+
+def case_empty_scene(program):
+    write("s.yaml", "")
+    program.run("s.yaml", code=3, says=["s.yaml:1:1: error: the scene is empty"])
+    program.small("particles=[]", code=3, says=["particles: empty"])
+    write("p.csv", "x,y,z,radius\n")
+    program.small("particles=[{file: {path: p.csv}}]", code=3, says=["the scene has no particles"])
+
+
+def case_threads(program):
+    for n in ("0", "-1", "x", "10000", "2.5", "1025"):
+        program.small(options=["--threads", n], code=2, says=[f"--threads: '{n}' is not allowed: 1 .. 1024 or 'auto'"])
+    program.small("end_time=1 ms", options=["--threads", "1024", "--quiet"])
+    assert summary()["threads"] == 1024
+
+
+def case_time_step_too_large(program):
+    said = ["time_step: 0.001 s is too large: at most 0.000", "recommended", "--force"]
+    program.small("time_step=1 ms", code=3, says=said)
+    program("validate", "small.yaml", "--time-step", "1 ms", code=3, says=said)
+    program.small("time_step=0.4 ms", "end_time=1.2 ms", options=["--force"], says=["warning: time_step: 0.0004 s is too large", "forced"])
+
+
+# Where results go ----------------------------------------------------------------------------------------------------
+
+
+def case_unwritable_output(program):
+    write("file", "")
+    program.small(output="file", code=5, says=["file: cannot be the output folder: it is a file"])
+    program.small(output="/proc/skred", code=5, says=["/proc/skred: cannot make the output folder"])
+    program.small(output="a" * 300, code=5, says=["File name too long"])
+    for option in ("--trace", "--timeline", "--summary"):
+        program.small(options=[option, "none/file"], code=5, says=["none/file: cannot be written: No such file"])
+    program.small("end_time=1 ms", options=["--quiet", "--summary", "/dev/full"], code=5, says=["/dev/full", "No space left"])
+    assert summary()["outcome"] == "finished", "the folder's own summary does not depend on the copy"
+
+
+LONG = ["run", "small.yaml", "--end-time", "1000", "--set", "output={frame_interval: 1 ms, statistics_interval: 1 ms, precision: double}"]
+
+
+def case_full_disk(program):
+    write("small.yaml", SMALL)
+    os.mkdir("disk")
+    mount = "mount -t tmpfs -o size=600k tmpfs disk && " if os.geteuid() == 0 else ""
+    if not mount or subprocess.run(["unshare", "-m", "sh", "-c", mount + "true"], capture_output=True).returncode:
+        raise Skip("no file system of its own can be mounted here")
+    keep = '"$@"; code=$?; cp -r disk/out kept; exit $code'
+    done = subprocess.run(["unshare", "-m", "sh", "-c", mount + keep, "sh", program.path, *LONG, "--output", "disk/out"],
+                          capture_output=True, text=True, timeout=LIMIT)
+    assert done.returncode == 5, (done.returncode, done.stderr)
+    contains(done.stderr, ["error: disk/out/", "No space left on device", "output error at t = "])
+    assert check_trajectory("kept", 2) > 10
+
+
+def case_file_size_limit(program):
+    write("small.yaml", SMALL)
+
+    def limit():
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (400_000, 400_000))
+
+    program(*LONG, "--output", "out", code=5, says=["error: out/", "File too large", "output error at t = "], preexec_fn=limit,
+            restore_signals=False)
+    assert check_trajectory("out", 2) > 10
+
+
+# Runs that end early -------------------------------------------------------------------------------------------------
+
+
+def started(program):
+    """A run that has written three frames and would go on for long."""
+    write("small.yaml", SMALL)
+    process = program.start(*LONG, "--output", "out")
+    wait_for(lambda: os.path.exists("out/trajectory.xdmf") and read("out", "trajectory.xdmf").count("<Time") >= 3, process)
+    return process
+
+
+def case_interrupted_once(program):
+    for sent in (signal.SIGINT, signal.SIGTERM):
+        process = started(program)
+        process.send_signal(sent)
+        said = process.communicate(timeout=LIMIT)[1]
+        assert process.returncode == 130, (process.returncode, said)
+        contains(said, ["interrupted at t = ", "writing what there is"])
+        assert set(os.listdir("out")) == FILES
+        s = summary()
+        assert s["outcome"] == "interrupted" and 0 < s["simulated_time"] < 1000
+        assert check_trajectory("out", 3) == s["frames"]
+        steps = [line.split(",")[1] for line in read("out", "statistics.csv").splitlines()[1:]]
+        assert steps[-1] == str(s["steps"]) and len(set(steps)) == len(steps), "every step once, up to the last"
+        os.rename("out", f"out-{sent}")
+
+
+def case_interrupted_twice(program):
+    process = started(program)
+    process.send_signal(signal.SIGSTOP)        # both signals are there when it goes on
+    process.send_signal(signal.SIGINT)
+    process.send_signal(signal.SIGTERM)
+    process.send_signal(signal.SIGCONT)
+    said = process.communicate(timeout=LIMIT)[1]
+    assert process.returncode == 130, (process.returncode, said)
+    contains(said, ["interrupted twice, ending at once"])
+    assert not os.path.exists("out/summary.json")
+    check_trajectory("out", 2, ended=False)
+
+
+def case_killed(program):
+    for k in range(3):                         # at three different moments
+        process = started(program)
+        wait_for(lambda: read("out", "trajectory.xdmf").count("<Time") >= 5 + 7 * k, process)
+        process.kill()
+        process.communicate(timeout=LIMIT)
+        check_trajectory("out", 3, ended=False)
+        os.rename("out", f"out-{k}")
+
+
+# Runs that become unphysical -----------------------------------------------------------------------------------------
+
+
+def case_particles_fall_out(program):
+    fall = ["bodies=[]", "bounds.min=[-1, -1, 0]", "end_time=0.1 s"]
+    program.small(*fall, code=4, says=["error: t = 0.04", "particle 0 at (0, 0, -", "left the bounds", "gap between walls", "action: report"])
+    assert summary()["outcome"] == "numerical failure" and set(os.listdir("out")) == FILES - {"bodies.xdmf"}
+    assert check_trajectory("out", 2) == summary()["frames"]
+    program.small(*fall, "bounds.action=report", says=["1 particle outside the bounds", "finished"], output="report")
+    assert summary("report")["particles_outside_bounds"] == 2 and summary("report")["outcome"] == "finished"
+    program.small("bounds.max=[1, 1, 0.03]", code=3, says=["particle 1 starts at", "outside the bounds"])
+
+
+def case_many_particles_outside_are_told_briefly(program):
+    heap = "particles=[{lattice: {radius: 1 cm, min: [0, 0, 0], max: [10 cm, 10 cm, 60 cm], spacing: 2.1 cm, jitter: 1 %}}]"
+    program.small(heap, "bodies=[]", "bounds={min: [-1, -1, -0.01], max: [1, 1, 1], action: report}", "end_time=0.4 s", options=["--quiet"])
+    told = [line for line in read("out", "log.txt").splitlines() if "outside" in line]
+    assert summary()["particles_outside_bounds"] > 300 and 2 <= len(told) <= 12, told
+
+
+def case_explosion(program):
+    for step in ("0.05", "1 ms", "0.6 ms"):
+        program.run(scene("drum"), "--time-step", step, "--end-time", "1 s", "--force", "--overwrite", "--quiet", code=4,
+                    says=["error: t = ", "step ", "particle ", "likely causes: a time step that is too large"])
+        s = summary()
+        assert s["outcome"] == "numerical failure" and s["steps"] * s["time_step"] < 1 and s["frames"] >= 2
+        assert check_trajectory("out", 2) == s["frames"]
+
+
+def case_overlap_beyond_the_limit(program):
+    program.small(LIST % "{radius: 1 cm, position: [0, 0, 1.5 cm], velocity: [0, 0, -20]}", "time_step=10 us", "limits.overlap=0.3",
+                  "output.statistics_interval=10 us", code=4, says=["particle 0: overlap of 0.3", "allowed 0.3 (limits.overlap)"])
+
+
+def case_body_gone_wild(program):
+    block = "bodies=[{name: block, motion: dynamic, mass: 1, position: [0, 0, 0.5], %s, geometries: [{sphere: {radius: 1 cm}}]}]"
+    program.small(block % "angular_velocity: [1e200, 1e200, 0]", "expected_speed=1", code=4, says=["t = 0 s", "body 'block'", "not a number"])
+    program.small(block % "velocity: [0, 0, 1e6]", "expected_speed=1", options=["--overwrite"], code=4,
+                  says=["body 'block'", "moves more than the smallest particle's radius (0.01 m)"])
+
+
+main(globals())

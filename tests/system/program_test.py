@@ -1,0 +1,281 @@
+#!/usr/bin/env python3
+"""tests/system/program_test.py - what a run prints and leaves, and what the other verbs print: see program.py."""
+import csv
+import math
+import os
+import re
+import shutil
+import subprocess
+import xml.etree.ElementTree as xml
+
+from program import FILES, SMALL, Skip, check_trajectory, contains, h5py, json, main, read, scene, state_hash, summary, write
+
+
+def case_run_leaves_a_complete_folder(program):
+    done = program.run(scene("hello"), "--end-time", "0.3 s", "--threads", "2", "--summary", "copy.json")
+    assert set(os.listdir("out")) == FILES, os.listdir("out")
+    assert done.stdout == ""
+    contains(done.stderr, ["5 particles", "threads 2", "time step", "(auto)", "force_calculation_particle_body", "profiling:",
+                           "finished at t = 0.3", "state hash " + state_hash()])
+    contains(read("out", "log.txt"), ["5 particles", "rolling resistance: in", "finished at t = 0.3"])
+    s = summary()
+    assert json.loads(read("copy.json")) == s
+    keys = ("scene method threads particles bodies steps time_step simulated_time wall_time particle_steps_per_second contacts "
+            "max_overlap_ratio kinetic_energy state_hash kernels").split()
+    assert not [k for k in keys if k not in s], s.keys()
+    assert (s["scene"], s["method"], s["threads"], s["particles"], s["bodies"], s["outcome"]) == ("hello", "sdem", 2, 5, 1, "finished")
+    assert math.isclose(s["steps"] * s["time_step"], s["simulated_time"]) and abs(s["simulated_time"] - 0.3) < s["time_step"]
+    assert 0 < s["contacts"] and 0 < s["max_overlap_ratio"] < 0.5 and re.fullmatch("[0-9a-f]{16}", s["state_hash"])
+    for kernel in s["kernels"]:
+        assert {"name", "count", "total", "share"} <= kernel.keys()
+    assert {k["name"]: k["count"] for k in s["kernels"]}["integrate"] == s["steps"]
+
+
+def case_hash_needs_neither_threads_nor_output(program):
+    def run(name, *options):
+        program.run(scene("drum"), "--end-time", "5 ms", "--quiet", *options, output=name)
+        return state_hash(name)
+
+    hashes = {"1": run("1", "--threads", "1")}
+    for threads in (2, 4):
+        hashes[str(threads)] = run(str(threads), "--threads", threads)
+    hashes["trace"] = run("trace", "--trace", "t.json", "--timeline", "t.svg")
+    hashes["output"] = run("output", "--set", "output={frame_interval: 1 ms, statistics_interval: 50 us, contacts: true, precision: double}")
+    hashes["search"] = run("search", "--set", "search={skin: 0.5 mm, cell_size: 20 mm, reorder_every: 1}")
+    assert len(set(hashes.values())) == 1, hashes
+    assert run("other", "--seed", "2") != hashes["1"], "the hash does not see another start"
+
+
+def drum(program):
+    """A real run, with bodies, many particles and 6 frames."""
+    program.run(scene("drum"), "--end-time", "0.05 s", "--set", "output.frame_interval=0.01", "--set", "output.contacts=true", "--quiet")
+
+
+def case_trajectory_in_h5py(program):
+    drum(program)
+    assert check_trajectory("out", 6) == 6
+    with h5py().File("out/trajectory.h5", "r") as file:
+        units = {"position": "m", "velocity": "m/s", "angular_velocity": "rad/s", "force": "N", "radius": "m", "mass": "kg", "id": "1"}
+        for name, unit in units.items():
+            assert file["particles"][name].attrs["units"] == unit, name
+        time, n = file["frames/time"][...], 867
+        assert abs(time - [0, 0.01, 0.02, 0.03, 0.04, 0.05]).max() < 1e-12, time
+        assert list(file["particles/id"]) == list(range(n)) and file["particles/radius"].shape == (n,)
+        first, last = file["frames/000000/position"][...], file["frames/000005/position"][...]
+        fallen = (first - last)[:, 2]
+        assert 0 <= fallen.min() + 5e-3 and abs(fallen.max() - 9.81 / 2 * 0.05**2) < 1e-3, (fallen.min(), fallen.max())
+        speed = file["frames/000005/velocity"][:, 2]
+        assert abs(speed.min() + 9.81 * 0.05) < 0.05 * 9.81 * 0.05, speed.min()
+        bodies = file["bodies"]
+        assert list(bodies["names"].asstr()) == ["drum"] and list(bodies["motion"].asstr()) == ["kinematic"]
+        w, x, y, z = bodies["orientation"][5, 0]
+        assert math.isclose(2 * math.atan2(y, w), 0.5 * 0.05, rel_tol=1e-9) and abs(x) + abs(z) < 1e-12, "the drum's turn"
+        assert list(bodies["angular_velocity"][5, 0]) == [0, 0.5, 0]
+        walls = file["contacts/particle_body"]
+        assert walls["count"][5] > 0 and len(walls["force"]) == sum(walls["count"])
+        total = walls["force"][walls["first"][5]:][: walls["count"][5]].sum(axis=0)
+        assert abs(total + bodies["force"][5, 0]).max() < 1e-5 * abs(total).max(), (total, bodies["force"][5, 0])
+
+
+def case_trajectory_in_vtk(program):
+    """Every frame at its time: in ParaView where it is installed, in VTK that knows time (9.3), else as XDMF says."""
+    drum(program)
+    h5 = h5py()
+    frames = xml.parse("out/trajectory.xdmf").findall("Domain/Grid/Grid")
+    times = [float(f.find("Time").get("Value")) for f in frames]
+    assert len(times) == 6 and abs(times[-1] - 0.05) < 1e-12
+    with h5.File("out/trajectory.h5", "r") as file:
+        want = [file[f"frames/{k:06d}/position"][...] for k in range(6)]
+        for k, frame in enumerate(frames):
+            for item in frame.iter("DataItem"):
+                data = file[item.text.strip().split(":")[1]]
+                assert data.shape == tuple(map(int, item.get("Dimensions").split())), item.text
+            assert (file[frame.find("Geometry/DataItem").text.strip().split(":")[1]][...] == want[k]).all()
+        bodies = xml.parse("out/bodies.xdmf").findall("Domain/Grid/Grid")
+        assert [float(f.find("Time").get("Value")) for f in bodies] == times
+    if shutil.which("pvpython"):
+        write("look.py", "from paraview import servermanager, simple\n"
+                         "source = simple.Xdmf3ReaderS(FileName=['out/trajectory.xdmf'])\n"
+                         "source.UpdatePipelineInformation()\n"
+                         "for time in source.TimestepValues:\n"
+                         "    source.UpdatePipeline(time)\n"
+                         "    data = servermanager.Fetch(source)\n"
+                         "    while data.IsA('vtkMultiBlockDataSet'): data = data.GetBlock(0)\n"
+                         "    print(time, *data.GetPoint(866))\n")
+        seen = subprocess.run(["pvpython", "look.py"], capture_output=True, text=True, check=True).stdout.splitlines()
+        seen = [list(map(float, line.split())) for line in seen]
+    else:
+        try:
+            from vtkmodules.vtkCommonCore import vtkVersion
+            from vtkmodules.vtkIOHDF import vtkHDFReader
+        except ImportError as missing:
+            raise Skip(missing)
+        version = vtkVersion()
+        if (version.GetVTKMajorVersion(), version.GetVTKMinorVersion()) < (9, 3):
+            print(f"XDMF references agree; VTK {version.GetVTKVersion()} has no time in VTKHDF")
+            return
+        reader, seen = vtkHDFReader(), []
+        reader.SetFileName("out/trajectory.h5")
+        reader.UpdateInformation()
+        for k in range(reader.GetNumberOfSteps()):
+            reader.SetStep(k)
+            reader.UpdateTimeStep(times[k])
+            seen.append([times[k], *reader.GetOutputDataObject(0).GetPoint(866)])
+    assert len(seen) == 6
+    for k, (time, *point) in enumerate(seen):
+        assert abs(time - times[k]) < 1e-12 and max(abs(point - want[k][866])) < 1e-6, (k, point, want[k][866])
+
+
+def case_statistics_agree(program):
+    program.run(scene("hello"), "--end-time", "0.2 s", "--quiet")
+    with open("out/statistics.csv", newline="") as text:
+        header, *rows = csv.reader(text)
+    names = dict(re.fullmatch(r"(\S+) \[(.+)\]", h).groups() for h in header)
+    need = ("time step kinetic_energy rotational_energy potential_energy contacts body_contacts normal_force_particle_particle "
+            "normal_force_particle_body highest_particle mean_speed max_overlap_ratio floor.force_z floor.torque_x").split()
+    assert not set(need) - names.keys(), names
+    with h5py().File("out/statistics.h5", "r") as file:
+        found = []
+        file.visititems(lambda name, item: found.append(name) if hasattr(item, "shape") else None)
+        assert {n.replace("/", ".") for n in found} == names.keys(), found
+        for column, (name, unit) in enumerate(names.items()):
+            data = file[name] if name in file else file[name.replace(".", "/")]
+            assert data.attrs["units"] == unit and data[...].tolist() == [float(r[column]) for r in rows], name
+    steps = [float(r[1]) for r in rows]
+    assert all(a < b for a, b in zip(steps, steps[1:])) and len(rows) > 190
+    energy = [sum(float(r[list(names).index(k)]) for k in need[2:5]) for r in rows]
+    assert energy[-1] < energy[0] and max(energy) < energy[0] * 1.001, "an impact dissipates"
+
+
+def case_resolved_scene_runs_the_same(program):
+    for name, *options in (["hello"], ["drum"], ["drum", "--set", "wall=cylinder"], ["drum", "--set", "wall=mesh"]):
+        program.run(scene(name), "--end-time", "2 ms", "--quiet", *options, "--overwrite", output="one")
+        program.run("one/scene.resolved.yaml", "--quiet", "--overwrite", output="two")
+        assert state_hash("one") == state_hash("two"), (name, options)
+        assert read("one/scene.resolved.yaml") == read("two/scene.resolved.yaml")
+
+
+def case_trace_is_valid(program):
+    program.run(scene("drum"), "--end-time", "5 ms", "--threads", "2", "--trace", "t.json", "--trace-steps", "10:20", "--quiet")
+    events = json.loads(read("t.json"))["traceEvents"]
+    threads = {e["tid"]: e["args"]["name"] for e in events if e["name"] == "thread_name"}
+    contains(str(threads), ["steps", "thread 0", "thread 1", "writer"])
+    steps = [e for e in events if e.get("cat") == "step"]
+    assert [e["args"]["step"] for e in steps] == list(range(10, 20))
+    for counter in ("contacts", "kinetic energy [J]"):
+        assert len([e for e in events if e["ph"] == "C" and e["name"] == counter]) == 10, counter
+    begin, end = steps[0]["ts"], steps[-1]["ts"] + steps[-1]["dur"]
+    for thread in threads:
+        open_until = []
+        spans = sorted((e for e in events if e["ph"] == "X" and e["tid"] == thread), key=lambda e: (e["ts"], -e["dur"]))
+        for span in spans:
+            while open_until and open_until[-1] <= span["ts"] + 2e-3:      # times are printed to the nanosecond
+                open_until.pop()
+            last = span["ts"] + span["dur"]
+            assert not open_until or last <= open_until[-1] + 2e-3, f"a span of {threads[thread]} overlaps its neighbour: {span}"
+            open_until.append(last)
+            assert span["dur"] >= 0 and (threads[thread] == "writer" or begin - 1e3 <= span["ts"] <= end + 1e3), span
+    names = {e["name"] for e in events if e.get("cat") == "call"}
+    assert {"broadphase", "contact_hashing", "force_calculation_particle_particle", "integrate"} <= names, names
+
+
+def case_trace_that_misses_the_run_says_so(program):
+    program.small(options=["--trace", "t.json", "--trace-steps", "100000:100001"], says=["none of the steps asked for was run"])
+    json.loads(read("t.json"))
+
+
+def case_timeline_is_svg(program):
+    program.run(scene("drum"), "--end-time", "5 ms", "--timeline", "t.svg", "--quiet")
+    root = xml.parse("t.svg").getroot()
+    assert root.tag == "{http://www.w3.org/2000/svg}svg"
+    contains(read("t.svg"), ["drum", "867", "force_calculation_particle_body"])
+
+
+def case_graph(program):
+    text = program("graph", scene("drum")).stdout
+    contains(text, ["kernels, in order", "force_calculation_particle_body", "after integrate (", "effects", "rolling resistance"])
+    assert len({program("graph", s).stdout for s in (scene("drum"), scene("hello"))}) == 2
+    dot = program("graph", scene("drum"), "--format", "dot").stdout
+    assert dot.startswith("digraph step {") and dot.rstrip().endswith("}") and '"integrate" -> ' in dot
+    if not shutil.which("dot"):
+        program("graph", scene("drum"), "--format", "svg", code=2, says=["graphviz", "--format dot"])
+        raise Skip("graphviz is not installed: no SVG")
+    subprocess.run(["dot", "-Tcanon"], input=dot, text=True, check=True, stdout=subprocess.DEVNULL)
+    svg = xml.fromstring(program("graph", scene("drum"), "--format", "svg").stdout)
+    assert svg.tag.endswith("svg") and any(t.text == "integrate" for t in svg.iter() if t.text)
+
+
+def case_other_verbs(program):
+    for name in ("hello", "drum", "silo"):
+        contains(program("validate", scene(name)).stdout, [f"scene '{name}' is sound", "time step"])
+    schema = json.loads(program("schema").stdout)
+    assert schema["type"] == "object" and "materials" in schema["properties"]
+    contains(program("models").stdout, ["hertz", "spring", "Cundall & Strack 1979", "restitution"])
+    contains(program("explain", "materials.youngs_modulus").stdout, ["Pa", "> 0"])
+    contains(program("explain").stdout, ["materials", "bodies", "end_time"])
+    for shell in ("bash", "zsh", "fish"):
+        contains(program("completion", shell).stdout, ["skred", "run", "validate"])
+    contains(program("--version").stdout, ["skred 0."])
+    contains(program("--help").stdout, ["run", "graph", "validate"])
+    contains(program("run", "--help").stdout, ["--threads", "--trace-steps", "--summary"])
+
+
+def case_wrong_usage(program):
+    write("s.yaml", SMALL)
+    for words in ([], ["walk"], ["run"], ["run", "s.yaml", "--colour"], ["run", "s.yaml", "--method", "pdem"], ["completion", "tcsh"],
+                  ["graph", "s.yaml", "--format", "gif"], ["run", "s.yaml", "--set", "gravity"],
+                  ["run", "s.yaml", "--trace-steps", "5:6"], ["run", "s.yaml", "--trace", "t", "--trace-steps", "6:5"]):
+        assert program(*words, code=2).stderr, words
+    program("explain", "materials.colour", code=2, says=["colour"])
+    for verb in ("run", "graph", "validate"):
+        program(verb, "s.yaml", "--method", "ndem", code=3, says=["ndem", "not in this version"])
+    assert os.listdir(".") == ["s.yaml"], "a refused run leaves nothing behind"
+
+
+def case_results_are_kept(program):
+    """Of an earlier run: nothing is lost unless a new run replaces it."""
+    program.small("end_time=1 ms", options=["--quiet"])
+    kept = read("out/summary.json")
+    write("out/notes.txt", "mine")
+    program.small(code=5, says=["out: the output folder is not empty"])
+    program.small("end_time=-1", options=["--overwrite"], code=3)
+    program.small("time_step=1", "end_time=2", options=["--overwrite"], code=3, says=["too large"])
+    program.small(options=["--overwrite", "--trace", "none/t.json"], code=5, says=["none/t.json", "No such file"])
+    assert read("out/summary.json") == kept
+    program.small("end_time=2 ms", options=["--overwrite", "--quiet", "--trace", "out/trace.json"])
+    assert read("out/summary.json") != kept and read("out/notes.txt") == "mine" and os.path.getsize("out/trace.json") > 1000
+    for name in ("small-sdem", "small-sdem-2"):
+        program("run", "small.yaml", "--quiet")
+        assert set(os.listdir("results/" + name)) == FILES
+
+
+def case_bodies_and_particles_exchange_momentum(program):
+    """A dynamic block hits a free heap: momentum stays, and the block slows down."""
+    write("hit.yaml", """
+end_time: 0.15 s
+gravity: [0, 0, 0]
+materials: [{name: a, density: 2500, youngs_modulus: 5 MPa, restitution: 0.3, friction: 0.5, rolling_friction: 0.05}]
+particles: [{lattice: {radius: 1 cm, min: [-4 cm, -4 cm, 0], max: [4 cm, 4 cm, 4 cm], spacing: 2.1 cm}}]
+bodies:
+  - {name: block, motion: dynamic, mass: 0.5, position: [0.01, 0.005, 0.1], velocity: [0, 0.1, -1], angular_velocity: [0, 3, 0],
+     geometries: [{box: {size: [6 cm, 6 cm, 6 cm]}}]}
+output: {frame_interval: 0.05, precision: double}
+""")
+    program.run("hit.yaml", "--quiet")
+    with h5py().File("out/trajectory.h5", "r") as file:
+        mass, velocity = file["particles/mass"][...], file["bodies/velocity"][:, 0]
+        for k in range(len(velocity)):
+            momentum = (mass[:, None] * file[f"frames/{k:06d}/velocity"][...]).sum(axis=0) + 0.5 * velocity[k]
+            assert abs(momentum - [0, 0.05, -0.5]).max() < 1e-12, (k, momentum)
+        assert velocity[-1][2] > -0.85, velocity
+
+
+def case_one_particle_and_less_than_a_step(program):
+    program.small("particles=[{list: [{radius: 1 cm, position: [0, 0, 2 cm]}]}]", "bodies=[]", options=["--quiet"])
+    assert summary()["particles"] == 1 and check_trajectory("out", 2) == 2
+    program.small("end_time=1e-9", "output={frame_interval: 1e-12, statistics_interval: 1e300}", options=["--quiet"], output="short")
+    assert summary("short")["steps"] == 1 and summary("short")["simulated_time"] == 1e-9
+    program("run", "/dev/stdin", "--quiet", "--output", "piped", code=3, says=["the scene is empty"])
+
+
+main(globals())
