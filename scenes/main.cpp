@@ -1,5 +1,6 @@
 // scenes/main.cpp - the program: verbs, options, exit codes.
 #include <cstdio>
+#include <cstdlib>
 #include <iostream>
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -140,9 +141,8 @@ int run_program(int argc, char** argv) {
   return exit_ok;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+// Every failure with its message and exit code.
+int guarded(int argc, char** argv) {
   const auto fail = [](int code, const char* what) {
     std::fprintf(stderr, "skred: error: %s\n", what);
     return code;
@@ -167,4 +167,13 @@ int main(int argc, char** argv) {
   } catch (const std::exception& e) {
     return fail(exit_io, e.what());
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int code = guarded(argc, argv);
+  if (code != exit_io) return code;
+  std::fflush(nullptr);
+  std::_Exit(code);      // HDF5's own handler at exit would touch the file that cannot be written again, and crash (1.10.8)
 }

@@ -1,6 +1,7 @@
 // engine/io/reserve.cpp - fallocate(2), and statvfs(3) where it is not supported.
 #include "engine/io/reserve.h"
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <cerrno>
@@ -19,6 +20,8 @@ int set_aside(const std::string& file, std::size_t bytes) {
   if (fd < 0) return EOPNOTSUPP;
   struct stat now {};
   int reason = ::fstat(fd, &now) == 0 ? 0 : errno;
+  rlimit most{};           // of the process; fallocate does not look at it where the size stays
+  if (reason == 0 && ::getrlimit(RLIMIT_FSIZE, &most) == 0 && std::uint64_t(now.st_size) + bytes > most.rlim_cur) reason = EFBIG;
   if (reason == 0 && ::fallocate(fd, FALLOC_FL_KEEP_SIZE, now.st_size, off_t(bytes)) != 0) reason = errno;
   ::close(fd);
   return reason;

@@ -123,14 +123,14 @@ LONG = ["run", "small.yaml", "--end-time", "1000", "--set", "output={frame_inter
 def case_full_disk(program):
     write("small.yaml", SMALL)
     os.mkdir("disk")
-    mount = "mount -t tmpfs -o size=600k tmpfs disk && " if os.geteuid() == 0 else ""
+    mount = "mount -t tmpfs -o size=1500k tmpfs disk && " if os.geteuid() == 0 else ""
     if not mount or subprocess.run(["unshare", "-m", "sh", "-c", mount + "true"], capture_output=True).returncode:
         raise Skip("no file system of its own can be mounted here")
     keep = '"$@"; code=$?; cp -r disk/out kept; exit $code'
     done = subprocess.run(["unshare", "-m", "sh", "-c", mount + keep, "sh", program.path, *LONG, "--output", "disk/out"],
                           capture_output=True, text=True, timeout=LIMIT)
     assert done.returncode == 5, (done.returncode, done.stderr)
-    contains(done.stderr, ["error: disk/out/", "No space left on device", "output error at t = "])
+    contains(done.stderr, ["error: disk/out/trajectory.h5: cannot write the frame at ", "No space left on device", "output error at t = "])
     assert check_trajectory("kept", 2) > 10
 
 
@@ -139,9 +139,9 @@ def case_file_size_limit(program):
 
     def limit():
         signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-        resource.setrlimit(resource.RLIMIT_FSIZE, (400_000, 400_000))
+        resource.setrlimit(resource.RLIMIT_FSIZE, (2_000_000, 2_000_000))
 
-    program(*LONG, "--output", "out", code=5, says=["error: out/", "File too large", "output error at t = "], preexec_fn=limit,
+    program(*LONG, "--output", "out", code=5, says=["error: out/", "cannot write the frame at ", "File too large", "output error at t = "], preexec_fn=limit,
             restore_signals=False)
     assert check_trajectory("out", 2) > 10
 
