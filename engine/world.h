@@ -29,6 +29,8 @@ struct Particles {
   Column<Quaternion> orientation{"orientation", "1"};              // empty unless the output asks for it
   Column<Vec3>       force{"force", "N"};                          // total, gravity included
   Column<Vec3>       torque{"torque", "N m"};
+  Column<Vec3>       previous_force{"previous_force", "N"};        // of the step before: the velocity prediction needs both
+  Column<Vec3>       previous_torque{"previous_torque", "N m"};
   Column<double>     radius{"radius", "m"};                        // > 0
   Column<double>     mass{"mass", "kg"};                           // > 0; moment of inertia 2/5 m R^2
   Column<Index>      material{"material", "1"};                    // row of the pair table
@@ -37,7 +39,8 @@ struct Particles {
   std::size_t rows() const { return position.data.size(); }
   static constexpr auto columns() {
     return std::tuple{&Particles::id, &Particles::position, &Particles::velocity, &Particles::angular_velocity,
-                      &Particles::orientation, &Particles::force, &Particles::torque, &Particles::radius,
+                      &Particles::orientation, &Particles::force, &Particles::torque,
+                      &Particles::previous_force, &Particles::previous_torque, &Particles::radius,
                       &Particles::mass, &Particles::material, &Particles::searched, &Particles::previous_row};
   }
 };
@@ -147,6 +150,8 @@ struct Bodies {
   Column<Vec3>   torque{"torque", "N m"};                          // from particles, about the origin of its frame
   Column<Vec3>   acceleration{"acceleration", "m/s^2"};            // dynamic bodies
   Column<Vec3>   angular_acceleration{"angular_acceleration", "rad/s^2"};
+  Column<Vec3>   previous_acceleration{"previous_acceleration", "m/s^2"};
+  Column<Vec3>   previous_angular_acceleration{"previous_angular_acceleration", "rad/s^2"};
   Column<double> mass{"mass", "kg"};                               // dynamic bodies
   Column<Vec3>   inertia{"inertia", "kg m^2"};                     // dynamic bodies: principal moments
   Column<Pose>   searched{"pose_at_search", "m, 1"};
@@ -154,7 +159,8 @@ struct Bodies {
   static constexpr auto columns() {
     return std::tuple{&Bodies::motion, &Bodies::pose, &Bodies::velocity, &Bodies::angular_velocity, &Bodies::force,
                       &Bodies::torque,
-                      &Bodies::acceleration, &Bodies::angular_acceleration, &Bodies::mass, &Bodies::inertia, &Bodies::searched};
+                      &Bodies::acceleration, &Bodies::angular_acceleration, &Bodies::previous_acceleration,
+                      &Bodies::previous_angular_acceleration, &Bodies::mass, &Bodies::inertia, &Bodies::searched};
   }
 };
 

@@ -5,6 +5,7 @@
 // The last line of the integration (kernels/integrate.h) is here because both forces are at hand.
 #pragma once
 #include "engine/access.h"
+#include "kernels/integrate.h"
 
 namespace skred {
 
@@ -23,7 +24,8 @@ template <bool contacts, bool body_contacts, bool rotates> struct ForceApplicati
                   If<body_contacts, Read<&BodyContacts::force>> body_force,
                   If<body_contacts && rotates, Read<&BodyContacts::torque>> body_torque, Read<&Particles::mass> mass,
                   If<rotates, Read<&Particles::radius>> radius, Update<&Particles::force> force,
-                  If<rotates, Update<&Particles::torque>> torque, Update<&Particles::velocity> velocity,
+                  Update<&Particles::previous_force> previous_force, If<rotates, Update<&Particles::torque>> torque,
+                  If<rotates, Update<&Particles::previous_torque>> previous_torque, Update<&Particles::velocity> velocity,
                   If<rotates, Update<&Particles::angular_velocity>> spin) const {
     for (std::size_t p = rows.first; p < rows.last; ++p) {
       Vec3 f, t;
@@ -44,11 +46,13 @@ template <bool contacts, bool body_contacts, bool rotates> struct ForceApplicati
         }
       f += mass[p] * gravity;
 
-      velocity[p] += (0.5 * time_step / mass[p]) * (f - force[p]);
+      velocity[p] += (0.5 * time_step / mass[p]) * (f - mean(force[p], previous_force[p]));
+      previous_force[p] = time_step > 0 ? force[p] : f;
       force[p] = f;
       if constexpr (rotates) {
         const double inertia = 0.4 * mass[p] * radius[p] * radius[p];
-        spin[p] += (0.5 * time_step / inertia) * (t - torque[p]);
+        spin[p] += (0.5 * time_step / inertia) * (t - mean(torque[p], previous_torque[p]));
+        previous_torque[p] = time_step > 0 ? torque[p] : t;
         torque[p] = t;
       }
     }

@@ -1,10 +1,13 @@
 #include "kernels/move_bodies.h"
 #include "kernels/body_forces.h"
+#include "kernels/integrate.h"
 
 namespace skred {
 
 void MoveBodies::operator()(Read<&Clock::step> step, Read<&Bodies::motion> motion, Read<&Bodies::acceleration> acceleration,
-                            Read<&Bodies::angular_acceleration> angular_acceleration, Update<&Bodies::pose> pose,
+                            Read<&Bodies::angular_acceleration> angular_acceleration,
+                            Read<&Bodies::previous_acceleration> previous_acceleration,
+                            Read<&Bodies::previous_angular_acceleration> previous_angular_acceleration, Update<&Bodies::pose> pose,
                             Update<&Bodies::velocity> velocity, Update<&Bodies::angular_velocity> spin) const {
   const double h = time_step;
   for (std::size_t b = 0; b < motion.size(); ++b) {
@@ -17,8 +20,8 @@ void MoveBodies::operator()(Read<&Clock::step> step, Read<&Bodies::motion> motio
       pose[b].position += h * velocity[b] + (0.5 * h * h) * acceleration[b];
       pose[b].orientation =
           normalized(rotation_by(h * spin[b] + (0.5 * h * h) * angular_acceleration[b]) * pose[b].orientation);
-      velocity[b] += h * acceleration[b];
-      spin[b] += h * angular_acceleration[b];
+      velocity[b] += (0.5 * h) * (acceleration[b] + mean(acceleration[b], previous_acceleration[b]));
+      spin[b] += (0.5 * h) * (angular_acceleration[b] + mean(angular_acceleration[b], previous_angular_acceleration[b]));
     }
   }
 }
@@ -32,6 +35,8 @@ void ForceApplicationBody::operator()(Read<&BodyContacts::particle> particle, Re
                                       Read<&Bodies::inertia> inertia, Write<&Bodies::force> body_force,
                                       Write<&Bodies::torque> body_torque, Update<&Bodies::acceleration> acceleration,
                                       Update<&Bodies::angular_acceleration> angular_acceleration,
+                                      Update<&Bodies::previous_acceleration> previous_acceleration,
+                                      Update<&Bodies::previous_angular_acceleration> previous_angular_acceleration,
                                       Update<&Bodies::velocity> velocity, Update<&Bodies::angular_velocity> spin) const {
   const auto loads = body_loads(particle, geometry, overlap, normal, force, rolling_torque, id, position, radius, body, pose);
   for (std::size_t b = 0; b < motion.size(); ++b) {
@@ -44,8 +49,10 @@ void ForceApplicationBody::operator()(Read<&BodyContacts::particle> particle, Re
     const Vec3 angular_momentum{inertia[b].x * w.x, inertia[b].y * w.y, inertia[b].z * w.z};
     const Vec3 m = t - cross(w, angular_momentum);
     const Vec3 alpha = rotate(pose[b].orientation, {m.x / inertia[b].x, m.y / inertia[b].y, m.z / inertia[b].z});
-    velocity[b] += (0.5 * time_step) * (a - acceleration[b]);
-    spin[b] += (0.5 * time_step) * (alpha - angular_acceleration[b]);
+    velocity[b] += (0.5 * time_step) * (a - mean(acceleration[b], previous_acceleration[b]));
+    spin[b] += (0.5 * time_step) * (alpha - mean(angular_acceleration[b], previous_angular_acceleration[b]));
+    previous_acceleration[b] = time_step > 0 ? acceleration[b] : a;
+    previous_angular_acceleration[b] = time_step > 0 ? angular_acceleration[b] : alpha;
     acceleration[b] = a;
     angular_acceleration[b] = alpha;
   }

@@ -18,7 +18,9 @@ struct MoveBodies {
   double time_step;                               // h [s] of this step; 0 before the first
 
   void operator()(Read<&Clock::step> step, Read<&Bodies::motion> motion, Read<&Bodies::acceleration> acceleration,
-                  Read<&Bodies::angular_acceleration> angular_acceleration, Update<&Bodies::pose> pose,
+                  Read<&Bodies::angular_acceleration> angular_acceleration,
+                  Read<&Bodies::previous_acceleration> previous_acceleration,
+                  Read<&Bodies::previous_angular_acceleration> previous_angular_acceleration, Update<&Bodies::pose> pose,
                   Update<&Bodies::velocity> velocity, Update<&Bodies::angular_velocity> spin) const;
 };
 
@@ -35,8 +37,10 @@ struct ForceApplicationBody {
                   Read<&Particles::radius> radius, Read<&Geometries::body> body, Read<&Bodies::motion> motion,
                   Read<&Bodies::pose> pose, Read<&Bodies::mass> mass, Read<&Bodies::inertia> inertia,
                   Write<&Bodies::force> body_force, Write<&Bodies::torque> body_torque, Update<&Bodies::acceleration> acceleration,
-                  Update<&Bodies::angular_acceleration> angular_acceleration, Update<&Bodies::velocity> velocity,
-                  Update<&Bodies::angular_velocity> spin) const;
+                  Update<&Bodies::angular_acceleration> angular_acceleration,
+                  Update<&Bodies::previous_acceleration> previous_acceleration,
+                  Update<&Bodies::previous_angular_acceleration> previous_angular_acceleration,
+                  Update<&Bodies::velocity> velocity, Update<&Bodies::angular_velocity> spin) const;
 };
 
 }  // namespace skred

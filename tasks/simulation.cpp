@@ -17,7 +17,7 @@ Simulation::Simulation(World world, Model model, int threads)
       timeline_(threads) {
   Particles& p = std::get<Particles>(world_);
   const std::size_t n = p.rows();
-  for (auto* c : {&p.force, &p.torque, &p.velocity, &p.angular_velocity}) c->data.resize(n);
+  for (auto* c : {&p.force, &p.torque, &p.previous_force, &p.previous_torque, &p.velocity, &p.angular_velocity}) c->data.resize(n);
   p.searched.data = p.position.data;
   p.previous_row.data.resize(n);
   if (p.id.data.size() != n) {
@@ -30,7 +30,8 @@ Simulation::Simulation(World world, Model model, int threads)
   std::get<BodyIncidence>(world_).first.data.assign(n + 1, 0);
 
   Bodies& b = std::get<Bodies>(world_);
-  for (auto* c : {&b.force, &b.torque, &b.acceleration, &b.angular_acceleration, &b.velocity, &b.angular_velocity, &b.inertia})
+  for (auto* c : {&b.force, &b.torque, &b.acceleration, &b.angular_acceleration, &b.previous_acceleration, &b.previous_angular_acceleration,
+                  &b.velocity, &b.angular_velocity, &b.inertia})
     c->data.resize(b.rows());
   b.mass.data.resize(b.rows());
   b.searched.data = b.pose.data;
@@ -83,7 +84,8 @@ std::uint64_t Simulation::state_hash() const {
   const BodyIncidence& bin = std::get<BodyIncidence>(world_);
   hash.add(steps_done());
   for (const Index r : rows_by_id(p)) {
-    for (const auto* column : {&p.position, &p.velocity, &p.angular_velocity, &p.force, &p.torque}) hash.add(column->data[r]);
+    for (const auto* column : {&p.position, &p.velocity, &p.angular_velocity, &p.force, &p.torque,
+                               &p.previous_force, &p.previous_torque}) hash.add(column->data[r]);
     if (!p.orientation.data.empty()) hash.add(p.orientation.data[r]);
     // History only of contacts that touch: which others are listed depends on the skin.
     for (Index k = in.first.data[r]; k < in.first.data[r + 1]; ++k) {
@@ -104,6 +106,8 @@ std::uint64_t Simulation::state_hash() const {
     hash.add(b.pose.data[k]);
     hash.add(b.velocity.data[k]);
     hash.add(b.angular_velocity.data[k]);
+    for (const auto* column : {&b.acceleration, &b.angular_acceleration, &b.previous_acceleration, &b.previous_angular_acceleration})
+      hash.add(column->data[k]);
   }
   return hash.value();
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include "kernels/restitution.h"
 
 namespace skred {
@@ -17,6 +18,24 @@ std::string number(const char* format, double a, double b = 0, double c = 0, dou
   char text[256];
   std::snprintf(text, sizeof text, format, a, b, c, d);
   return text;
+}
+
+// Largest eigenvalue of M^-1 C over the dashpots of a packing, rotation included, in units of beta sqrt(S_n m_eff) / m at the
+// overlap reckoned with. Measured: 25 100 /s in a bed of 20 000 pellets at rest in a silo, whose fill reckons with 4.7 m/s.
+constexpr double dashpots_of_a_packing = 12.5;
+
+// A light dynamic body lies on many particles at once: its mass per contact [kg].
+double lightest_share_of_a_body(const World& w, double radius) {
+  const Bodies& b = std::get<Bodies>(w);
+  const Geometries& g = std::get<Geometries>(w);
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < g.rows(); ++k) {
+    const Index body = g.body.data[k];
+    if (b.motion.data[body] != Motion::dynamic) continue;
+    const double across = outer_radius(g.shape.data[k]) / (2 * radius);
+    least = std::min(least, b.mass.data[body] / std::max(1.0, std::numbers::pi * across * across));
+  }
+  return least;
 }
 
 }  // namespace
@@ -63,21 +82,22 @@ TimeStepAdvice advise_time_step(const World& w, const Model& m, double speed) {
   std::size_t smallest = 0;
   for (std::size_t k = 1; k < p.rows(); ++k)
     if (p.mass.data[k] < p.mass.data[smallest]) smallest = k;
-  const double mass = p.mass.data[smallest], radius_eff = p.radius.data[smallest] / 2, mass_eff = mass / 2;
-  const double hertz = 4.0 / 3.0 * young * std::sqrt(radius_eff);
+  const double radius = p.radius.data[smallest];
+  const double mass = std::min(p.mass.data[smallest], lightest_share_of_a_body(w, radius)), mass_eff = mass / 2;
+  const double hertz = 4.0 / 3.0 * young * std::sqrt(radius / 2);
   a.overlap = std::pow(5 * mass_eff * speed * speed / (4 * hertz), 0.4);
   a.contact_time = 2.9432 * a.overlap / speed;
-  const double stiffness = 2 * young * std::sqrt(radius_eff * a.overlap);
+  const double stiffness = 2 * young * std::sqrt(radius / 2 * a.overlap);
   a.stability_limit = 2 / std::sqrt(8 * stiffness / mass);
-  const double dashpots = mass / (4 * beta * std::sqrt(stiffness * mass_eff));   // [s] 1 / rate of a random packing's damping
-  const double by_contact = a.contact_time / 40, by_packing = std::min(a.stability_limit / 10, dashpots / 3);
-  a.step = two_digits_down(std::min(by_contact, by_packing));
-  a.limit = std::min({a.contact_time / 10, a.stability_limit / 2, dashpots});
-  a.reason = number("an impact at %.3g m/s overlaps %.3g mm and lasts %.3g ms; ", speed, a.overlap * 1e3, a.contact_time * 1e3) +
-             (by_contact <= by_packing
-                  ? number("the step is 1/40 of that (a dense packing's stability limit is %.3g ms)", a.stability_limit * 1e3)
-                  : number("the step is %.2g of a dense packing's stability limit of %.3g ms", by_packing / a.stability_limit,
-                           a.stability_limit * 1e3));
+  a.damping_limit = 2 / (dashpots_of_a_packing * beta * std::sqrt(stiffness * mass_eff) / mass);   // infinite for e = 1
+  const double by_contact = a.contact_time / 40, by_packing = a.stability_limit / 10, by_damping = 0.4 * a.damping_limit;
+  a.step = two_digits_down(std::min({by_contact, by_packing, by_damping}));
+  a.limit = std::min({a.contact_time / 10, a.stability_limit / 2, 0.9 * a.damping_limit});
+  a.reason = number("an impact at %.3g m/s overlaps %.3g mm and lasts %.3g ms; ", speed, a.overlap * 1e3, a.contact_time * 1e3);
+  if (a.step > 0.9 * by_contact) a.reason += "the step is 1/40 of that";
+  else if (a.step > 0.9 * by_packing) a.reason += "the step is a tenth of what the springs of a dense packing allow";
+  else a.reason += "the step is 0.4 of what the dashpots of a dense packing allow";
+  a.reason += number(" (springs: %.2g us, dashpots: %.2g us)", a.stability_limit * 1e6, a.damping_limit * 1e6);
   return a;
 }
 

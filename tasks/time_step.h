@@ -12,6 +12,7 @@ struct TimeStepAdvice {
   double overlap = 0;           // [m] greatest overlap reckoned with
   double contact_time = 0;      // [s] of the fastest contact
   double stability_limit = 0;   // [s] 2 / omega_max of a dense packing
+  double damping_limit = 0;     // [s] 2 / lambda
   std::string reason;           // one sentence with the numbers
 };
 
@@ -19,8 +20,9 @@ struct TimeStepAdvice {
 //   overlap        g = (5 m_eff v^2 / (4 k_H))^(2/5)                        elastic Hertz impact
 //   contact time   t_c = 2.9432 g / v                                       Hertz 1882; Landau & Lifshitz, Elasticity, sec. 9
 //   packing        h < 2 / omega_max, omega_max^2 ~ 8 k_tan / m, k_tan = 2 E* sqrt(R_eff g)     eq (2.6), derived for Hertz
-//   dashpots       the sum over a packing's contacts must not reverse a velocity within a step
-// The step is the smaller of t_c / 40 and a tenth of the packing's limit; the limit is t_c / 10 and half of the packing's.
+//   dashpots       h < 2 / lambda, lambda the largest eigenvalue of M^-1 C over the dashpots of a packing (kernels/integrate.h)
+// The step is the least of t_c / 40, a tenth of the springs' limit and 0.4 of the dashpots'; more than t_c / 10, half of the
+// springs' limit or 0.9 of the dashpots' is refused. A dynamic body counts as particles of its mass per contact.
 TimeStepAdvice advise_time_step(const World&, const Model&, double speed);
 
 // The fastest impact to expect [m/s]: speeds at the start, prescribed motion of bodies, and a fall through the height of the scene.
