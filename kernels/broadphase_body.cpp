@@ -1,5 +1,6 @@
 #include "kernels/broadphase_body.h"
 #include <algorithm>
+#include <numeric>
 #include <utility>
 #include "engine/geometry/mesh.h"
 
@@ -45,10 +46,8 @@ void BroadphaseBody::operator()(Parallel parallel, Read<&Search::due> due, Read<
   std::vector<Pose> world(shape.size());
   for (std::size_t g = 0; g < shape.size(); ++g) world[g] = pose[body[g]] * local[g];
 
-  constexpr std::size_t chunk = 256;
-  std::vector<Found> found((n + chunk - 1) / chunk);
-  std::vector<Index> count(n);
-  parallel.chunks(n, chunk, [&](std::size_t k, std::size_t begin, std::size_t end) {
+  // Of the geometries `from`, those within reach of a ball around the particles [begin, end).
+  const auto reached = [&](const std::vector<Index>& from, std::size_t begin, std::size_t end) {
     Vec3 low = position[begin], high = low;
     double largest = 0;
     for (std::size_t p = begin; p < end; ++p) {
@@ -60,13 +59,24 @@ void BroadphaseBody::operator()(Parallel parallel, Read<&Search::due> due, Read<
     const Vec3 centre = 0.5 * (low + high);
     const double ball = 0.5 * norm(high - low) + largest + skin;
     std::vector<Index> near;
-    for (Index g = 0; g < shape.size(); ++g)
+    for (const Index g : from)
       if (reaches(shape[g], to_local(world[g], centre), ball)) near.push_back(g);
+    return near;
+  };
+  std::vector<Index> all(shape.size());
+  std::iota(all.begin(), all.end(), Index{0});
 
+  constexpr std::size_t chunk = 256, group = 16;
+  std::vector<Found> found((n + chunk - 1) / chunk);
+  std::vector<Index> count(n);
+  parallel.chunks(n, chunk, [&](std::size_t k, std::size_t begin, std::size_t end) {
+    const std::vector<Index> near = reached(all, begin, end);
+    std::vector<Index> nearer;
     Found& f = found[k];
     for (std::size_t p = begin; p < end; ++p) {
       const std::size_t before = f.places.size();
-      for (const Index g : near) {
+      if ((p - begin) % group == 0) nearer = reached(near, p, std::min(p + group, end));
+      for (const Index g : nearer) {
         const Vec3 x = to_local(world[g], position[p]);
         if (const Mesh* mesh = mesh_of(shape[g])) {
           const auto first = static_cast<Index>(f.triangles.size());

@@ -5,7 +5,7 @@
 
 namespace skred {
 
-// Chunks of particles are compact in space (kernels/reorder.h): most geometries are ruled out once per chunk.
+// Neighbouring rows are neighbours in space (kernels/reorder.h): most geometries are ruled out once per chunk, more per group.
 struct BroadphaseBody {
   static constexpr const char* name = "broadphase_body";
 

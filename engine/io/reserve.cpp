@@ -41,7 +41,7 @@ void reserve_space(const std::string& file, std::size_t bytes, const std::string
   if (!full && (error || space.available >= bytes)) return;
   const auto kib = [](std::uintmax_t n) { return std::to_string(n >> 10) + " KiB"; };
   throw IoError(file + ": cannot write " + action + ": " + std::strerror(full ? reason : ENOSPC) + " (needs " +
-                kib(bytes + 1023) + (error ? "" : ", " + kib(space.available) + " are free") + ")");
+                kib(bytes + 1023) + (error || reason == EFBIG ? "" : ", " + kib(space.available) + " are free") + ")");
 }
 
 }  // namespace skred
