@@ -18,7 +18,8 @@ struct CellAxis {
   bool periodic = false;
 
   int cell(double x) const {
-    return static_cast<int>(std::clamp((x - low) * inverse_width, 0.0, double(count - 1)));
+    const double c = (x - low) * inverse_width;
+    return c > 0 ? static_cast<int>(std::min(c, double(count - 1))) : 0;
   }
   // The cells to look through for a point in cell c: itself and its neighbours, each once.
   int neighbours(int c, std::array<int, 3>& out) const {

@@ -80,7 +80,8 @@ void CheckMotion<Space>::operator()(Parallel parallel, Read<&Particles::id> id, 
     walls_moved = std::max(walls_moved, surface_moved(pose[b], pose_searched[b], lever));
   }
   const double moved = std::sqrt(all.moved2);
-  due[0] = first || 2 * moved > skin || moved + walls_moved > skin;
+  const bool sound = all.trouble != Trouble::not_finite;     // else there is nowhere to look for partners; the run ends here
+  due[0] = sound && (first || 2 * moved > skin || moved + walls_moved > skin);
   if (due[0]) ++count[0];
   trouble[0] = all.trouble;
   culprit[0] = all.culprit;
