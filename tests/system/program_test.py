@@ -6,6 +6,7 @@ import os
 import re
 import shutil
 import subprocess
+import sys
 import xml.etree.ElementTree as xml
 
 from program import FILES, SMALL, Skip, check_trajectory, contains, h5py, json, main, read, scene, state_hash, summary, write
@@ -280,6 +281,25 @@ def case_one_particle_and_less_than_a_step(program):
     program.small("end_time=1e-9", "output={frame_interval: 1e-12, statistics_interval: 1e300}", options=["--quiet"], output="short")
     assert summary("short")["steps"] == 1 and summary("short")["simulated_time"] == 1e-9
     program("run", "/dev/stdin", "--quiet", "--output", "piped", code=3, says=["the scene is empty"])
+
+
+def case_report_scripts(program):
+    try:
+        import matplotlib, PIL  # noqa: F401
+    except ImportError as missing:
+        raise Skip(missing)
+    drum(program)
+    scripts = os.path.join(os.path.dirname(scene("drum")), "..", "profiling", "report")
+    def report(script, *options):
+        return subprocess.run([sys.executable, os.path.join(scripts, script), "out", *options], capture_output=True, text=True, timeout=60)
+
+    picture = report("picture.py", "--width", "250", "-o", "last.png")
+    assert picture.returncode == 0, picture.stderr
+    with open("last.png", "rb") as file:
+        assert file.read(8) == b"\x89PNG\r\n\x1a\n"
+    slope = report("drum_slope.py")                # of this bed there is no slope, and it says so
+    assert slope.returncode != 0
+    contains(slope.stderr, ["out: in no frame is the bed's surface long enough to be measured"])
 
 
 main(globals())
