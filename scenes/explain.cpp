@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cctype>
 #include <stdexcept>
+#include "scenes/overrides.h"
 #include "scenes/schema.h"
 
 namespace skred {
@@ -30,15 +31,6 @@ bool is_index(const std::string& word) {
   return !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) { return std::isdigit(c); });
 }
 
-std::vector<std::string> split(const std::string& path) {
-  std::vector<std::string> out(1);
-  for (const char c : path) {
-    if (c == '.') out.emplace_back();
-    else out.back() += c;
-  }
-  return out;
-}
-
 }  // namespace
 
 std::string explain(const std::string& path) {
@@ -47,7 +39,7 @@ std::string explain(const std::string& path) {
   KeyDescription at;
   std::string where;
   bool in_list = false;
-  for (const std::string& word : split(path)) {
+  for (const std::string& word : split_path(path)) {
     if (in_list && is_index(word)) continue;              // bodies.0.mass is bodies.mass
     const auto found = std::find_if(keys.begin(), keys.end(), [&](const KeyDescription& k) { return k.name == word; });
     if (found == keys.end()) {

@@ -5,9 +5,8 @@
 #include <stdexcept>
 
 namespace skred {
-namespace {
 
-std::vector<std::string> split(const std::string& path) {
+std::vector<std::string> split_path(const std::string& path) {
   std::vector<std::string> out(1);
   for (const char c : path) {
     if (c == '.') out.emplace_back();
@@ -15,6 +14,8 @@ std::vector<std::string> split(const std::string& path) {
   }
   return out;
 }
+
+namespace {
 
 bool among(const std::vector<std::string>& all, const std::string& word) {
   return std::find(all.begin(), all.end(), word) != all.end();
@@ -68,7 +69,7 @@ Node& descend(Node& root, const std::vector<std::string>& words, Mark option) {
 
 // The words of a path, with `parameters` before a parameter's name. Throws std::invalid_argument.
 std::vector<std::string> full_path(const Node& root, const std::string& path, const std::vector<std::string>& top_level) {
-  std::vector<std::string> words = split(path);
+  std::vector<std::string> words = split_path(path);
   if (among(words, "")) throw std::invalid_argument("a path is keys joined by dots");
   const Node::Entry* parameters = root.find("parameters");
   const std::vector<std::string> names = parameters ? keys_of(parameters->value) : std::vector<std::string>();
