@@ -1,5 +1,6 @@
 #include "scenes/show.h"
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <unistd.h>
@@ -57,16 +58,17 @@ std::string graph_dot(const Scene& scene) {
 }
 
 std::string graph_svg(const Scene& scene) {
-  char name[] = "/tmp/skred-graph-XXXXXX";
-  const int file = mkstemp(name);
-  if (file < 0) throw UsageError("graph: no temporary file can be made in /tmp");
+  const std::filesystem::path folder = std::filesystem::temp_directory_path();
+  std::string name = (folder / "skred-graph-XXXXXX").string();   // mkstemp(3) fills the X in
+  const int file = mkstemp(name.data());
+  if (file < 0) throw UsageError("graph: no temporary file can be made in " + folder.string());
   close(file);
   std::ofstream(name) << graph_dot(scene);
   std::string svg;
-  FILE* pipe = popen(("dot -Tsvg " + std::string(name) + " 2>/dev/null").c_str(), "r");
+  FILE* pipe = popen(("dot -Tsvg '" + name + "' 2>/dev/null").c_str(), "r");
   for (char buffer[4096]; pipe && std::fgets(buffer, sizeof buffer, pipe);) svg += buffer;
   const bool drawn = pipe && pclose(pipe) == 0 && !svg.empty();
-  std::remove(name);
+  std::remove(name.c_str());
   if (!drawn) throw UsageError("graph: --format svg needs the program 'dot' (Debian package graphviz); --format dot needs nothing");
   return svg;
 }
