@@ -4,11 +4,18 @@
 // contacts (a SIMD type with the same operators).
 #pragma once
 #include <cmath>
+#include <type_traits>
 
 namespace skred {
 
-// The branch-free choice that laws use instead of `if`; a SIMD pack overloads it with a mask.
+// The branch-free choice that laws use instead of `if`: of numbers, and lane by lane of packs.
 constexpr double select(bool condition, double yes, double no) { return condition ? yes : no; }
+template <class Mask, class Pack> requires(!std::is_same_v<Mask, bool>)
+Pack select(const Mask& condition, const Pack& yes, const Pack& no) {
+  Pack r = no;
+  where(condition, r) = yes;                                 // std::experimental::where
+  return r;
+}
 
 template <class R> struct Vec3T {
   R x{}, y{}, z{};
@@ -27,6 +34,9 @@ template <class R> constexpr Vec3T<R> operator*(Vec3T<R> a, R s) { return a *= s
 template <class R> constexpr R dot(const Vec3T<R>& a, const Vec3T<R>& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 template <class R> constexpr Vec3T<R> cross(const Vec3T<R>& a, const Vec3T<R>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+template <class R> constexpr Vec3T<R> select(const auto& condition, const Vec3T<R>& yes, const Vec3T<R>& no) {
+  return {select(condition, yes.x, no.x), select(condition, yes.y, no.y), select(condition, yes.z, no.z)};
 }
 template <class R> R norm(const Vec3T<R>& a) { using std::sqrt; return sqrt(dot(a, a)); }
 

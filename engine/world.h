@@ -34,34 +34,59 @@ struct Particles {
   Column<double>     radius{"radius", "m"};                        // > 0
   Column<double>     mass{"mass", "kg"};                           // > 0; moment of inertia 2/5 m R^2
   Column<Index>      material{"material", "1"};                    // row of the pair table
-  Column<Vec3>       searched{"position_at_search", "m"};          // where the particle was when candidates were last listed
-  Column<Index>      previous_row{"row_before_reorder", "1"};      // its row at the search before that
+  Column<Vec3>       searched{"position_at_search", "m"};          // where it was when neighbours were last searched for ...
+  Column<double>     search_margin{"search_margin", "m"};          // ... and how far from there it may go before the next search
+  Column<Vec3>       listed{"position_at_listing", "m"};           // where it was when contacts were last listed ...
+  Column<double>     list_margin{"list_margin", "m"};              // ... and how far from there it may go before the next listing
+  Column<Index>      previous_row{"row_before_reorder", "1"};      // its row before the rows were last sorted
   std::size_t rows() const { return position.data.size(); }
   static constexpr auto columns() {
     return std::tuple{&Particles::id, &Particles::position, &Particles::velocity, &Particles::angular_velocity,
                       &Particles::orientation, &Particles::force, &Particles::torque,
                       &Particles::previous_force, &Particles::previous_torque, &Particles::radius,
-                      &Particles::mass, &Particles::material, &Particles::searched, &Particles::previous_row};
+                      &Particles::mass, &Particles::material, &Particles::searched, &Particles::search_margin,
+                      &Particles::listed, &Particles::list_margin, &Particles::previous_row};
   }
 };
 
-// Pairs of particles that may touch before the next search, id[i] < id[j]; sorted by the row i, then by id[j].
+// The neighbour list [Verlet 1967]: pairs of particles that may touch before the next search, each with the particle of the lower
+// id, as neighbours [first, first_next) of it by ascending id. Contacts are listed from these, much more often.
+struct Neighbours {
+  Column<Index> row{"neighbour", "1"};                             // row of Particles
+  Column<Index> id{"neighbour_id", "1"};
+  Column<Index> contact{"contact_of_neighbour", "1"};              // row of Contacts, or no_index if the pair is not near enough
+  std::size_t rows() const { return row.data.size(); }
+  static constexpr auto columns() { return std::tuple{&Neighbours::row, &Neighbours::id, &Neighbours::contact}; }
+};
+
+// Where each particle finds its neighbours. Row p of `first` and `first_lower` for particle p, and one more at the end:
+// neighbours [first[p], first[p+1]) belong to p; lower[first_lower[p] .. first_lower[p+1]) are rows of Neighbours in which p is
+// the neighbour, by ascending id of the owner.
+struct Neighbourhood {
+  Column<Index> first{"first_neighbour", "1"};
+  Column<Index> first_lower{"first_lower_neighbour", "1"};
+  Column<Index> lower{"lower_neighbour", "1"};
+  std::size_t rows() const { return first.data.size(); }
+  static constexpr auto columns() { return std::tuple{&Neighbourhood::first, &Neighbourhood::first_lower, &Neighbourhood::lower}; }
+};
+
+// Pairs of particles that may touch before the next listing, id[i] < id[j]; sorted by the row i, then by id[j].
 struct Contacts {
   Column<Index>  i{"i", "1"}, j{"j", "1"};                         // rows of Particles
   Column<Index>  partner{"partner", "1"};                          // id[j]
   Column<Vec3>   force{"contact_force", "N"};                      // on i, -force on j; zero where the pair does not touch
-  Column<Vec3>   torque_i{"contact_torque_i", "N m"};              // on i, rolling resistance included
-  Column<Vec3>   torque_j{"contact_torque_j", "N m"};              // on j
+  Column<Vec3>   torque{"contact_torque", "N m"};                  // of the force about the centre of i; about that of j, it is
+  Column<double> arm_ratio{"contact_arm_ratio", "1"};              //   arm_ratio times that (empty where all radii are equal: 1)
   Column<Vec3>   spring{"tangential_spring", "m"};                 // history: displacement in the tangent plane
-  Column<Vec3>   rolling{"rolling_moment", "N m"};                 // history: elastic rolling moment on i
+  Column<Vec3>   rolling{"rolling_moment", "N m"};                 // history: elastic rolling moment on i, the opposite on j
   std::size_t rows() const { return i.data.size(); }
   static constexpr auto columns() {
-    return std::tuple{&Contacts::i, &Contacts::j, &Contacts::partner, &Contacts::force, &Contacts::torque_i, &Contacts::torque_j,
-                      &Contacts::spring, &Contacts::rolling};
+    return std::tuple{&Contacts::i, &Contacts::j, &Contacts::partner, &Contacts::force, &Contacts::torque,
+                      &Contacts::arm_ratio, &Contacts::spring, &Contacts::rolling};
   }
 };
 
-// History of the contacts before the last search, by particle row at that time (Particles::previous_row).
+// History of the contacts before the last listing, by particle row at that time.
 struct PreviousContacts {
   Column<Index> first{"previous_first_contact", "1"};
   Column<Index> partner{"previous_partner", "1"};
@@ -73,15 +98,17 @@ struct PreviousContacts {
   }
 };
 
-// Where each particle finds its contacts. Row p of `first` and of `first_lower` for particle p, and one more at the end:
-// contacts [first[p], first[p+1]) have p as i; lower[first_lower[p] .. first_lower[p+1]) are those with p as j, by ascending id of i.
+// Where each particle finds its contacts. Row p of `first` for particle p, and one more at the end: contacts [first[p], first[p+1])
+// have p as i; lower[begin_lower[p] .. end_lower[p]) are those with p as j, by ascending id of i.
 // Read one after the other - lower ids first - they give every particle its partners by ascending id: the order of its sums.
 struct Incidence {
   Column<Index> first{"first_contact", "1"};
-  Column<Index> first_lower{"first_lower_contact", "1"};
+  Column<Index> begin_lower{"begin_lower_contacts", "1"}, end_lower{"end_lower_contacts", "1"};
   Column<Index> lower{"lower_contact", "1"};
   std::size_t rows() const { return first.data.size(); }
-  static constexpr auto columns() { return std::tuple{&Incidence::first, &Incidence::first_lower, &Incidence::lower}; }
+  static constexpr auto columns() {
+    return std::tuple{&Incidence::first, &Incidence::begin_lower, &Incidence::end_lower, &Incidence::lower};
+  }
 };
 
 // Places where a particle may touch a geometry of a rigid body before the next search; sorted by particle row, geometry,
@@ -182,9 +209,10 @@ struct CellGrid {
   Column<Index> start{"cell_start", "1"};
   Column<Index> order{"cell_order", "1"};                          // rows of Particles
   Column<Vec3>  position{"cell_position", "m"};                    // in that order, to be read in a stream
+  Column<double> reach{"cell_reach", "m"};                         // in that order: radius + search_margin
   std::size_t rows() const { return cell.data.size(); }
   static constexpr auto columns() {
-    return std::tuple{&CellGrid::cell, &CellGrid::start, &CellGrid::order, &CellGrid::position};
+    return std::tuple{&CellGrid::cell, &CellGrid::start, &CellGrid::order, &CellGrid::position, &CellGrid::reach};
   }
 };
 
@@ -200,19 +228,23 @@ enum class Trouble : std::uint32_t { none = 0, not_finite, too_fast, out_of_boun
 
 // One row: the state of the search for candidates, and what watching the motion found.
 struct Search {
-  Column<char>         due{"search_due", "1", {1}};                // candidates must be listed anew in this step
+  Column<char>         due{"search_due", "1", {1}};                // neighbours must be searched for in this step
+  Column<char>         list_due{"listing_due", "1", {1}};          // contacts must be listed anew in this step
+  Column<char>         reordered{"reordered", "1", {0}};           // the rows of the particles were sorted in this step
   Column<std::int64_t> count{"searches", "1", {0}};                // searches so far, this one included
+  Column<std::int64_t> listings{"listings", "1", {0}};             // of contacts, this one included
   Column<double>       reach{"reach", "m", {0}};                   // greatest distance of a particle from the origin at the last search
   Column<Trouble>      trouble{"trouble", "1", {Trouble::none}};
   Column<Index>        culprit{"culprit", "1", {no_index}};        // id of the particle in trouble
   Column<std::int64_t> outside{"outside", "1", {0}};               // particles outside the bounds
   std::size_t rows() const { return 1; }
   static constexpr auto columns() {
-    return std::tuple{&Search::due, &Search::count, &Search::reach, &Search::trouble, &Search::culprit, &Search::outside};
+    return std::tuple{&Search::due, &Search::list_due, &Search::reordered, &Search::count, &Search::listings, &Search::reach,
+                      &Search::trouble, &Search::culprit, &Search::outside};
   }
 };
 
-using World = std::tuple<Particles, Contacts, PreviousContacts, Incidence, BodyContacts, PreviousBodyContacts, BodyIncidence, Triangles,
+using World = std::tuple<Particles, Neighbours, Neighbourhood, Contacts, PreviousContacts, Incidence, BodyContacts, PreviousBodyContacts, BodyIncidence, Triangles,
                          Bodies, Geometries, CellGrid, Clock, Search>;
 
 }  // namespace skred

@@ -1,50 +1,65 @@
 #include "kernels/broadphase.h"
 #include <algorithm>
-#include <utility>
 #include "kernels/cell_grid.h"
 
 namespace skred {
 
 namespace {
 
-struct Partner { Index id, row; };
+// A neighbour, sorted by id: the id in the upper half, the row in the lower.
+using Key = std::uint64_t;
+Key key(Index id, Index row) { return Key{id} << 32 | row; }
+Index id_of(Key k) { return static_cast<Index>(k >> 32); }
+Index row_of(Key k) { return static_cast<Index>(k); }
+
+// Most lists hold less than ten keys.
+void sort_short(Key* first, Key* last) {
+  if (last - first > 64) return std::sort(first, last);
+  for (Key* k = first + (first != last); k < last; ++k) {
+    const Key moving = *k;
+    Key* to = k;
+    for (; to > first && to[-1] > moving; --to) *to = to[-1];
+    *to = moving;
+  }
+}
 
 // Counting sort of the particles by cell.
-void sort_into_cells(const Parallel& parallel, const CellLayout& layout, std::span<const Vec3> position, CellGrid& grid) {
+void sort_into_cells(const Parallel& parallel, const CellLayout& layout, std::span<const Vec3> position, std::span<const double> radius,
+                     std::span<const double> margin, CellGrid& grid) {
   const std::size_t n = position.size();
   grid.cell.data.resize(n);
   grid.order.data.resize(n);
   grid.position.data.resize(n);
+  grid.reach.data.resize(n);
   parallel(n, 8192, [&](std::size_t first, std::size_t last) {
     for (std::size_t p = first; p < last; ++p) grid.cell.data[p] = static_cast<Index>(layout.cell(position[p]));
   });
   auto& start = grid.start.data;
   start.assign(layout.cells() + 1, 0);
-  for (const Index c : grid.cell.data) ++start[c + 1];
-  for (std::size_t c = 1; c < start.size(); ++c) start[c] += start[c - 1];
-  for (std::size_t p = n; p-- > 0;) grid.order.data[--start[grid.cell.data[p] + 1]] = static_cast<Index>(p);
-  start.erase(start.begin());                                // now start[c] is the first of cell c ...
-  start.push_back(static_cast<Index>(n));                    // ... and the last entry closes the last cell
+  for (const Index c : grid.cell.data) ++start[c];
+  Index sum = 0;
+  for (Index& s : start) sum += s, s = sum;                  // the end of each cell; filling from behind makes it the start
+  for (std::size_t p = n; p-- > 0;) grid.order.data[--start[grid.cell.data[p]]] = static_cast<Index>(p);
   parallel(n, 8192, [&](std::size_t first, std::size_t last) {
-    for (std::size_t k = first; k < last; ++k) grid.position.data[k] = position[grid.order.data[k]];
+    for (std::size_t k = first; k < last; ++k) {
+      const Index p = grid.order.data[k];
+      grid.position.data[k] = position[p];
+      grid.reach.data[k] = radius[p] + margin[p];
+    }
   });
 }
 
-// Contacts in which each particle is the partner, by ascending id of the other.
-void list_lower_contacts(const Parallel& parallel, std::span<const Index> id, const Contacts& contacts, Incidence& incidence) {
-  const std::size_t n = id.size();
-  auto& first = incidence.first_lower.data;
-  auto& lower = incidence.lower.data;
-  first.assign(n + 1, 0);
-  lower.resize(contacts.rows());
-  for (const Index j : contacts.j.data) ++first[j + 1];
-  for (std::size_t p = 0; p < n; ++p) first[p + 1] += first[p];
-  std::vector<Index> next(first.begin(), first.end() - 1);
-  for (Index c = 0; c < contacts.rows(); ++c) lower[next[contacts.j.data[c]]++] = c;
-  const auto by_id = [&](Index a, Index b) { return id[contacts.i.data[a]] < id[contacts.i.data[b]]; };
-  parallel(n, 4096, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p) std::sort(lower.begin() + first[p], lower.begin() + first[p + 1], by_id);
-  });
+// What a chunk of particles finds: for each particle first its neighbours of a lower id, then those of a higher one.
+struct Found {
+  std::vector<Key> lower, higher;
+  std::vector<Index> lower_end, higher_end;                  // by particle of the chunk
+};
+
+// Where the neighbours of p are in the list of its owner q.
+Index entry_of(const Neighbourhood& of, const Neighbours& list, Index q, Index p) {
+  Index entry = of.first.data[q];
+  while (list.row.data[entry] != p) ++entry;
+  return entry;
 }
 
 }  // namespace
@@ -52,36 +67,36 @@ void list_lower_contacts(const Parallel& parallel, std::span<const Index> id, co
 template <class Space>
 void Broadphase<Space>::operator()(Parallel parallel, Read<&Search::due> due, Read<&Particles::id> id,
                                    Read<&Particles::position> position, Read<&Particles::radius> radius,
-                                   Resize<CellGrid> grid,
-                                   Resize<Contacts> contacts, Resize<PreviousContacts> previous,
-                                   Resize<Incidence> incidence) const {
+                                   Read<&Particles::search_margin> margin, Resize<CellGrid> grid, Resize<Neighbours> neighbours,
+                                   Resize<Neighbourhood> neighbourhood) const {
   if (!due[0]) return;
   const std::size_t n = position.size();
   const CellLayout layout = fit_cells(position, cell, space);
-  sort_into_cells(parallel, layout, position, *grid.table);
+  sort_into_cells(parallel, layout, position, radius, margin, *grid.table);
   const auto& start = grid->start.data;
   const auto& order = grid->order.data;
   const auto& cell_position = grid->position.data;
+  const auto& reach = grid->reach.data;
 
-  // Partners of each chunk of particles, and where the partners of each particle end in its chunk's list.
   constexpr std::size_t chunk = 1024;
-  std::vector<std::vector<Partner>> found((n + chunk - 1) / chunk);
-  std::vector<Index> end_in_chunk(n);
+  std::vector<Found> found((n + chunk - 1) / chunk);
   parallel.chunks(n, chunk, [&](std::size_t k, std::size_t begin, std::size_t end) {
-    auto& list = found[k];
-    list.reserve(4 * (end - begin));
+    Found& f = found[k];
+    f.lower.reserve(8 * (end - begin));
+    f.higher.reserve(8 * (end - begin));
+    std::vector<Index> near;                                 // places in the grid's order
     for (std::size_t p = begin; p < end; ++p) {
       const Vec3 x = position[p];
-      const double far = radius[p] + largest_radius + skin;
-      const std::size_t mine = list.size();
+      const double mine = radius[p] + margin[p];
+      std::size_t count = 0;
       const auto look = [&](std::size_t first_cell, std::size_t last_cell) {
-        for (Index s = start[first_cell]; s < start[last_cell + 1]; ++s) {
+        const Index from = start[first_cell], to = start[last_cell + 1];
+        if (near.size() < count + (to - from)) near.resize(2 * (count + (to - from)));
+        for (Index s = from; s < to; ++s) {                  // no branch: which of them are near is a matter of chance
           const Vec3 d = space.shortest(cell_position[s] - x);
-          const double distance2 = dot(d, d);
-          if (!(distance2 < far * far)) continue;
-          const Index q = order[s];
-          const double near = radius[p] + radius[q] + skin;
-          if (id[q] > id[p] && distance2 < near * near) list.push_back({id[q], q});
+          const double touch = mine + reach[s];
+          near[count] = s;
+          count += dot(d, d) < touch * touch;
         }
       };
       std::array<int, 3> xs, ys, zs;
@@ -96,41 +111,53 @@ void Broadphase<Space>::operator()(Parallel parallel, Read<&Search::due> due, Re
             for (int a = 0; a < nx; ++a) look(layout.index(xs[a], ys[b], zs[c]), layout.index(xs[a], ys[b], zs[c]));
           }
         }
-      std::sort(list.begin() + mine, list.end(), [](const Partner& a, const Partner& b) { return a.id < b.id; });
-      end_in_chunk[p] = static_cast<Index>(list.size());
-    }
-  });
-
-  // The old contacts step back: contact_hashing takes their history from there.
-  std::swap(previous->first.data, incidence->first.data);
-  std::swap(previous->partner.data, contacts->partner.data);
-  std::swap(previous->spring.data, contacts->spring.data);
-  std::swap(previous->rolling.data, contacts->rolling.data);
-
-  std::vector<std::size_t> offset(found.size() + 1, 0);
-  for (std::size_t k = 0; k < found.size(); ++k) offset[k + 1] = offset[k] + found[k].size();
-  const std::size_t total = offset.back();
-  for (auto* c : {&contacts->i, &contacts->j, &contacts->partner}) c->data.resize(total);
-  contacts->force.data.resize(total);
-  contacts->torque_i.data.resize(columns.torque ? total : 0);
-  contacts->torque_j.data.resize(columns.torque ? total : 0);
-  contacts->spring.data.resize(columns.spring ? total : 0);
-  contacts->rolling.data.resize(columns.rolling ? total : 0);
-  incidence->first.data.resize(n + 1);
-  incidence->first.data[n] = static_cast<Index>(total);
-  parallel.chunks(n, chunk, [&](std::size_t k, std::size_t begin, std::size_t end) {
-    std::size_t from = 0;
-    for (std::size_t p = begin; p < end; ++p) {
-      incidence->first.data[p] = static_cast<Index>(offset[k] + from);
-      for (; from < end_in_chunk[p]; ++from) {
-        const std::size_t c = offset[k] + from;
-        contacts->i.data[c] = static_cast<Index>(p);
-        contacts->j.data[c] = found[k][from].row;
-        contacts->partner.data[c] = found[k][from].id;
+      const std::size_t low = f.lower.size(), high = f.higher.size();
+      f.lower.resize(low + count);
+      f.higher.resize(high + count);
+      Key *l = f.lower.data() + low, *h = f.higher.data() + high;
+      for (std::size_t s = 0; s < count; ++s) {
+        const Index q = order[near[s]];
+        *l = *h = key(id[q], q);
+        l += id[q] < id[p];
+        h += id[q] > id[p];
       }
+      sort_short(f.lower.data() + low, l);
+      sort_short(f.higher.data() + high, h);
+      f.lower.resize(static_cast<std::size_t>(l - f.lower.data()));
+      f.higher.resize(static_cast<std::size_t>(h - f.higher.data()));
+      f.lower_end.push_back(static_cast<Index>(f.lower.size()));
+      f.higher_end.push_back(static_cast<Index>(f.higher.size()));
     }
   });
-  list_lower_contacts(parallel, id, *contacts.table, *incidence.table);
+
+  std::vector<Index> offset(found.size() + 1, 0), lower_offset(found.size() + 1, 0);
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    offset[k + 1] = offset[k] + static_cast<Index>(found[k].higher.size());
+    lower_offset[k + 1] = lower_offset[k] + static_cast<Index>(found[k].lower.size());
+  }
+  for (auto* c : {&neighbours->row, &neighbours->id, &neighbours->contact}) c->data.resize(offset.back());
+  neighbourhood->lower.data.resize(offset.back());
+  neighbourhood->first.data.resize(n + 1);
+  neighbourhood->first_lower.data.resize(n + 1);
+  neighbourhood->first.data[n] = neighbourhood->first_lower.data[n] = offset.back();
+  parallel.chunks(n, chunk, [&](std::size_t k, std::size_t begin, std::size_t end) {
+    const Found& f = found[k];
+    for (std::size_t p = begin; p < end; ++p) {
+      neighbourhood->first.data[p] = offset[k] + (p > begin ? f.higher_end[p - begin - 1] : 0);
+      neighbourhood->first_lower.data[p] = lower_offset[k] + (p > begin ? f.lower_end[p - begin - 1] : 0);
+    }
+    for (std::size_t e = 0; e < f.higher.size(); ++e) {
+      neighbours->row.data[offset[k] + e] = row_of(f.higher[e]);
+      neighbours->id.data[offset[k] + e] = id_of(f.higher[e]);
+    }
+  });
+  parallel.chunks(n, chunk, [&](std::size_t k, std::size_t begin, std::size_t end) {
+    const Found& f = found[k];
+    std::size_t e = 0;
+    for (std::size_t p = begin; p < end; ++p)
+      for (; e < f.lower_end[p - begin]; ++e)
+        neighbourhood->lower.data[lower_offset[k] + e] = entry_of(*neighbourhood.table, *neighbours.table, row_of(f.lower[e]), static_cast<Index>(p));
+  });
 }
 
 template struct Broadphase<OpenSpace>;

@@ -1,29 +1,23 @@
 // kernels/broadphase.h - the pairs of particles that may touch before the next search.
 //
-// When a search is due: particles are sorted into the cells of a grid (edge >= largest diameter + skin), and each looks through
-// its 27 cells for partners of a higher id within the skin. Lists are sorted by the partner's id, and each particle also gets
-// the contacts in which it is the partner. The lists hold for the skin; what touches is decided in the force kernel.
+// When a search is due: particles are sorted into the cells of a grid, and each looks through its 27 cells for neighbours within
+// the margins of both. Each pair is listed once, with the particle of the lower id, by ascending id of the other; and each
+// particle also gets the entries in which it is the other.
 #pragma once
 #include "engine/access.h"
 #include "engine/periodic.h"
 
 namespace skred {
 
-// Which columns of the contacts the laws need.
-struct ContactColumns { bool torque = false, spring = false, rolling = false; };
-
 template <class Space> struct Broadphase {
   static constexpr const char* name = "broadphase";
 
   Space space;
-  double skin;              // [m] > 0
-  double cell;              // [m] edge of a cell, at least largest diameter + skin
-  double largest_radius;    // [m]
-  ContactColumns columns;
+  double cell;              // [m] edge of a cell, at least the largest diameter + twice the largest margin
 
   void operator()(Parallel parallel, Read<&Search::due> due, Read<&Particles::id> id, Read<&Particles::position> position,
-                  Read<&Particles::radius> radius, Resize<CellGrid> grid, Resize<Contacts> contacts,
-                  Resize<PreviousContacts> previous, Resize<Incidence> incidence) const;
+                  Read<&Particles::radius> radius, Read<&Particles::search_margin> margin, Resize<CellGrid> grid,
+                  Resize<Neighbours> neighbours, Resize<Neighbourhood> neighbourhood) const;
 };
 
 extern template struct Broadphase<OpenSpace>;

@@ -36,8 +36,8 @@ bool reaches(const Shape& shape, const Vec3& centre, double radius) {
 }  // namespace
 
 void BroadphaseBody::operator()(Parallel parallel, Read<&Search::due> due, Read<&Particles::position> position,
-                                Read<&Particles::radius> radius, Read<&Geometries::body> body, Read<&Geometries::shape> shape,
-                                Read<&Geometries::local> local, Read<&Bodies::pose> pose, Update<&Bodies::searched> searched,
+                                Read<&Particles::radius> radius, Read<&Particles::search_margin> margin, Read<&Geometries::body> body,
+                                Read<&Geometries::shape> shape, Read<&Geometries::local> local, Read<&Bodies::pose> pose, Update<&Bodies::searched> searched,
                                 Resize<BodyContacts> contacts, Resize<PreviousBodyContacts> previous,
                                 Resize<BodyIncidence> incidence, Resize<Triangles> triangles) const {
   if (!due[0]) return;
@@ -54,10 +54,10 @@ void BroadphaseBody::operator()(Parallel parallel, Read<&Search::due> due, Read<
       const Vec3 x = position[p];
       low = {std::min(low.x, x.x), std::min(low.y, x.y), std::min(low.z, x.z)};
       high = {std::max(high.x, x.x), std::max(high.y, x.y), std::max(high.z, x.z)};
-      largest = std::max(largest, radius[p]);
+      largest = std::max(largest, radius[p] + margin[p]);
     }
     const Vec3 centre = 0.5 * (low + high);
-    const double ball = 0.5 * norm(high - low) + largest + skin;
+    const double ball = 0.5 * norm(high - low) + largest + wall_margin;
     std::vector<Index> near;
     for (const Index g : from)
       if (reaches(shape[g], to_local(world[g], centre), ball)) near.push_back(g);
@@ -80,11 +80,11 @@ void BroadphaseBody::operator()(Parallel parallel, Read<&Search::due> due, Read<
         const Vec3 x = to_local(world[g], position[p]);
         if (const Mesh* mesh = mesh_of(shape[g])) {
           const auto first = static_cast<Index>(f.triangles.size());
-          mesh->find(x, radius[p] + skin, f.triangles);
+          mesh->find(x, radius[p] + margin[p] + wall_margin, f.triangles);
           const auto listed = static_cast<Index>(f.triangles.size()) - first;
           for (Index s = 0; listed > 0 && s < max_mesh_contacts; ++s)
             f.places.push_back({static_cast<Index>(p), g, s, first, listed});
-        } else if (reaches(shape[g], x, radius[p] + skin)) {
+        } else if (reaches(shape[g], x, radius[p] + margin[p] + wall_margin)) {
           f.places.push_back({static_cast<Index>(p), g, 0, 0, 0});
         }
       }

@@ -1,7 +1,7 @@
 // kernels/broadphase_body.h - the geometries that a particle may touch before the next search, and for meshes the triangles.
 #pragma once
 #include "engine/access.h"
-#include "kernels/broadphase.h"
+#include "kernels/contact_listing.h"
 
 namespace skred {
 
@@ -9,12 +9,12 @@ namespace skred {
 struct BroadphaseBody {
   static constexpr const char* name = "broadphase_body";
 
-  double skin;              // [m] > 0
+  double wall_margin;       // [m] how far a moving body's surface may go before the next search
   ContactColumns columns;
 
   void operator()(Parallel parallel, Read<&Search::due> due, Read<&Particles::position> position,
-                  Read<&Particles::radius> radius, Read<&Geometries::body> body, Read<&Geometries::shape> shape,
-                  Read<&Geometries::local> local, Read<&Bodies::pose> pose, Update<&Bodies::searched> searched,
+                  Read<&Particles::radius> radius, Read<&Particles::search_margin> margin, Read<&Geometries::body> body,
+                  Read<&Geometries::shape> shape, Read<&Geometries::local> local, Read<&Bodies::pose> pose, Update<&Bodies::searched> searched,
                   Resize<BodyContacts> contacts, Resize<PreviousBodyContacts> previous, Resize<BodyIncidence> incidence,
                   Resize<Triangles> triangles) const;
 };

@@ -8,7 +8,7 @@ namespace skred {
 namespace {
 
 struct Seen {                    // of one chunk of particles
-  double moved2 = 0;             // greatest displacement since the search, squared
+  bool left_margin = false;
   Trouble trouble = Trouble::none;
   Index culprit = no_index;
   std::int64_t outside = 0;
@@ -19,6 +19,10 @@ struct Seen {                    // of one chunk of particles
     culprit = id;
   }
 };
+
+bool inside(const Bounds& b, const Vec3& x) {
+  return (x.x >= b.min.x) & (x.x <= b.max.x) & (x.y >= b.min.y) & (x.y <= b.max.y) & (x.z >= b.min.z) & (x.z <= b.max.z);
+}
 
 // How far a point of the body's surface can have come since the search: |shift| + 2 sin(angle/2) times the lever.
 double surface_moved(const Pose& now, const Pose& then, double lever) {
@@ -33,31 +37,44 @@ double surface_moved(const Pose& now, const Pose& then, double lever) {
 template <class Space>
 void CheckMotion<Space>::operator()(Parallel parallel, Read<&Particles::id> id, Read<&Particles::position> position,
                                     Read<&Particles::velocity> velocity, Read<&Particles::radius> radius,
-                                    Read<&Particles::searched> searched, Read<&Bodies::motion> motion, Read<&Bodies::pose> pose,
-                                    Read<&Bodies::searched> pose_searched, Read<&Geometries::body> body,
-                                    Read<&Geometries::shape> shape, Read<&Geometries::local> local, Update<&Search::due> due,
-                                    Update<&Search::count> count, Read<&Search::reach> reach, Write<&Search::trouble> trouble,
+                                    Update<&Particles::searched> searched, Update<&Particles::search_margin> search_margin,
+                                    Update<&Particles::listed> listed, Update<&Particles::list_margin> list_margin,
+                                    Read<&Bodies::motion> motion, Read<&Bodies::pose> pose, Read<&Bodies::searched> pose_searched,
+                                    Read<&Geometries::body> body, Read<&Geometries::shape> shape, Read<&Geometries::local> local,
+                                    Update<&Search::due> due, Write<&Search::list_due> list_due, Update<&Search::count> count,
+                                    Update<&Search::listings> listings, Update<&Search::reach> reach, Write<&Search::trouble> trouble,
                                     Write<&Search::culprit> culprit, Write<&Search::outside> outside) const {
   constexpr std::size_t chunk = 4096;
-  const std::size_t n = position.size();
-  std::vector<Seen> seen((n + chunk - 1) / chunk);
+  const std::size_t n = position.size(), chunks = (n + chunk - 1) / chunk;
   const bool first = count[0] == 0;                          // nothing was listed yet
+
+  const auto moved2 = [&](std::size_t p, std::span<const Vec3> from) {
+    const Vec3 d = space.shortest(position[p] - from[p]);
+    return dot(d, d);
+  };
+  // A contact lasts tens of steps: half a radius in one step is far beyond any sound motion.
+  const auto sound_speed = [&](std::size_t p) {
+    const double reach_of_step = 0.5 * radius[p];
+    return dot(velocity[p], velocity[p]) * time_step * time_step <= reach_of_step * reach_of_step;
+  };
+  const auto in_margin = [&](std::size_t p) { return moved2(p, listed) <= list_margin[p] * list_margin[p]; };
+
+  std::vector<Seen> seen(chunks);
   parallel.chunks(n, chunk, [&](std::size_t k, std::size_t begin, std::size_t end) {
     Seen s;
+    bool all_well = true, all_in_margin = true;              // no branch while all is well; NaN fails every comparison
     for (std::size_t p = begin; p < end; ++p) {
-      const Vec3 x = position[p], v = velocity[p];
-      if (!is_finite(x) || !is_finite(v)) {
+      all_in_margin &= in_margin(p);
+      all_well &= sound_speed(p) & (!bounded || inside(bounds, position[p]));
+    }
+    s.left_margin = !all_in_margin;
+    for (std::size_t p = begin; p < end && !(all_well && all_in_margin); ++p) {
+      if (!is_finite(position[p]) || !is_finite(velocity[p])) {
         s.blame(Trouble::not_finite, id[p]);
         continue;
       }
-      if (!first) {
-        const Vec3 d = space.shortest(x - searched[p]);
-        s.moved2 = std::max(s.moved2, dot(d, d));
-      }
-      const double reach_of_step = 0.5 * radius[p];          // a contact lasts tens of steps: this is far beyond any sound motion
-      if (dot(v, v) * time_step * time_step > reach_of_step * reach_of_step) s.blame(Trouble::too_fast, id[p]);
-      if (bounded && !(x.x >= bounds.min.x && x.x <= bounds.max.x && x.y >= bounds.min.y && x.y <= bounds.max.y &&
-                       x.z >= bounds.min.z && x.z <= bounds.max.z)) {
+      if (!sound_speed(p)) s.blame(Trouble::too_fast, id[p]);
+      if (bounded && !inside(bounds, position[p])) {
         ++s.outside;
         if (stop_outside) s.blame(Trouble::out_of_bounds, id[p]);
       }
@@ -67,7 +84,7 @@ void CheckMotion<Space>::operator()(Parallel parallel, Read<&Particles::id> id, 
 
   Seen all;
   for (const Seen& s : seen) {
-    all.moved2 = std::max(all.moved2, s.moved2);
+    all.left_margin |= s.left_margin;
     all.outside += s.outside;
     if (s.trouble != Trouble::none) all.blame(s.trouble, s.culprit);
   }
@@ -76,16 +93,44 @@ void CheckMotion<Space>::operator()(Parallel parallel, Read<&Particles::id> id, 
     const Index b = body[g];
     if (motion[b] == Motion::fixed) continue;
     const double lever = std::min(norm(local[g].position) + outer_radius(shape[g]),
-                                  reach[0] + skin + norm(pose_searched[b].position));   // a plane has no end; the particles do
+                                  reach[0] + 2 * margins.largest + norm(pose_searched[b].position));   // a plane has no end; the particles do
     walls_moved = std::max(walls_moved, surface_moved(pose[b], pose_searched[b], lever));
   }
-  const double moved = std::sqrt(all.moved2);
-  const bool sound = all.trouble != Trouble::not_finite;     // else there is nowhere to look for partners; the run ends here
-  due[0] = sound && (first || 2 * moved > skin || moved + walls_moved > skin);
-  if (due[0]) ++count[0];
   trouble[0] = all.trouble;
   culprit[0] = all.culprit;
   outside[0] = all.outside;
+
+  const bool sound = all.trouble != Trouble::not_finite;     // else there is nowhere to look for partners; the run ends here
+  due[0] = sound && (first || walls_moved > margins.walls);
+  list_due[0] = sound && (due[0] || all.left_margin);
+  if (!list_due[0]) return;
+
+  const auto margin = [&](std::size_t p, double steps, double rest) {
+    return std::min(rest + steps * time_step * norm(velocity[p]), margins.largest);
+  };
+  std::vector<char> leaves(chunks, 0);
+  parallel.chunks(n, chunk, [&](std::size_t k, std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      listed[p] = position[p];
+      list_margin[p] = margin(p, margins.list_steps, margins.list_rest);
+      leaves[k] |= !(std::sqrt(moved2(p, searched)) + list_margin[p] <= search_margin[p]);
+    }
+  });
+  due[0] |= std::any_of(leaves.begin(), leaves.end(), [](char l) { return l != 0; });
+  ++listings[0];
+  if (!due[0]) return;
+
+  std::vector<double> farthest(chunks, 0);
+  parallel.chunks(n, chunk, [&](std::size_t k, std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      searched[p] = position[p];
+      search_margin[p] = std::max(list_margin[p], margin(p, margins.search_steps, margins.search_rest));
+      farthest[k] = std::max(farthest[k], norm(position[p]) + radius[p]);
+    }
+  });
+  reach[0] = 0;
+  for (const double f : farthest) reach[0] = std::max(reach[0], f);
+  ++count[0];
 }
 
 template struct CheckMotion<OpenSpace>;

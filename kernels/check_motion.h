@@ -1,7 +1,9 @@
-// kernels/check_motion.h - is the list of candidates still good, and is every particle still where it can be?
+// kernels/check_motion.h - are the lists of neighbours and contacts still good, and is every particle still where it can be?
 //
-// A pair listed with a skin s may be used until two particles have moved s in sum; a particle-body pair until the particle and
-// the body's surface have. Nothing else depends on the skin: no result does (tests/tasks).
+// When contacts are listed every particle gets a margin, a distance that it may go before the next listing: more for a fast one,
+// so that a few of them do not make everyone list anew. A pair is listed if it is nearer than its radii and both margins. The
+// neighbours that listings are made from have wider margins of the same kind, and are searched for when a particle's next margin
+// would end outside. Nothing else depends on margins: no result does (tests/tasks).
 #pragma once
 #include <limits>
 #include "engine/access.h"
@@ -9,21 +11,31 @@
 
 namespace skred {
 
+// Margins of the two lists [m]: what a particle goes in so many steps at its present speed, and something for those at rest.
+struct Margins {
+  double list_steps, list_rest;
+  double search_steps, search_rest;
+  double largest;                // [m] > 0 no margin is wider
+  double walls;                  // [m] of the surfaces of moving bodies, at the search
+};
+
 template <class Space> struct CheckMotion {
   static constexpr const char* name = "check_motion";
 
   Space space;
-  double skin;                   // [m]
+  Margins margins;
   double time_step;              // h [s]
   bool bounded;
   Bounds bounds;                 // [m]
   bool stop_outside;             // a particle outside is trouble
 
   void operator()(Parallel parallel, Read<&Particles::id> id, Read<&Particles::position> position,
-                  Read<&Particles::velocity> velocity, Read<&Particles::radius> radius, Read<&Particles::searched> searched,
-                  Read<&Bodies::motion> motion, Read<&Bodies::pose> pose, Read<&Bodies::searched> pose_searched,
-                  Read<&Geometries::body> body, Read<&Geometries::shape> shape, Read<&Geometries::local> local,
-                  Update<&Search::due> due, Update<&Search::count> count, Read<&Search::reach> reach,
+                  Read<&Particles::velocity> velocity, Read<&Particles::radius> radius, Update<&Particles::searched> searched,
+                  Update<&Particles::search_margin> search_margin, Update<&Particles::listed> listed,
+                  Update<&Particles::list_margin> list_margin, Read<&Bodies::motion> motion, Read<&Bodies::pose> pose,
+                  Read<&Bodies::searched> pose_searched, Read<&Geometries::body> body, Read<&Geometries::shape> shape,
+                  Read<&Geometries::local> local, Update<&Search::due> due, Write<&Search::list_due> list_due,
+                  Update<&Search::count> count, Update<&Search::listings> listings, Update<&Search::reach> reach,
                   Write<&Search::trouble> trouble, Write<&Search::culprit> culprit, Write<&Search::outside> outside) const;
 };
 

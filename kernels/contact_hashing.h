@@ -10,7 +10,7 @@ namespace skred {
 // The old contacts of a particle, [next, end); empty before the first search.
 struct OldContacts {
   Index next = 0, end = 0;
-  OldContacts(std::span<const Index> first, Index previous_row) {
+  OldContacts(std::span<const Index> first, std::size_t previous_row) {
     if (!first.empty()) next = first[previous_row], end = first[previous_row + 1];
   }
   // Moves on to the first whose key is at least `key`, and tells whether it is that one.
@@ -23,15 +23,15 @@ struct OldContacts {
 template <bool spring, bool rolling> struct ContactHashing {
   static constexpr const char* name = "contact_hashing";
 
-  void operator()(Parallel parallel, Read<&Search::due> due, Read<&Particles::previous_row> previous_row,
-                  Read<&Incidence::first> first, Read<&Contacts::partner> partner, Read<&PreviousContacts::first> old_first,
-                  Read<&PreviousContacts::partner> old_partner, If<spring, Read<&PreviousContacts::spring>> old_spring,
+  void operator()(Parallel parallel, Read<&Search::list_due> due, Read<&Search::reordered> reordered,
+                  Read<&Particles::previous_row> previous_row, Read<&Incidence::first> first, Read<&Contacts::partner> partner,
+                  Read<&PreviousContacts::first> old_first, Read<&PreviousContacts::partner> old_partner, If<spring, Read<&PreviousContacts::spring>> old_spring,
                   If<rolling, Read<&PreviousContacts::rolling>> old_rolling, If<spring, Update<&Contacts::spring>> new_spring,
                   If<rolling, Update<&Contacts::rolling>> new_rolling) const {
     if (!due[0]) return;
     parallel(previous_row.size(), 4096, [&](std::size_t begin, std::size_t end) {
       for (std::size_t p = begin; p < end; ++p) {
-        OldContacts old(old_first, previous_row[p]);
+        OldContacts old(old_first, reordered[0] ? previous_row[p] : p);
         for (Index c = first[p]; c < first[p + 1]; ++c) {
           const bool known = old.find(old_partner, partner[c]);
           if constexpr (spring) new_spring[c] = known ? old_spring[old.next] : Vec3{};
@@ -46,8 +46,8 @@ template <bool spring, bool rolling> struct ContactHashing {
 template <bool spring, bool rolling> struct ContactHashingBody {
   static constexpr const char* name = "contact_hashing_body";
 
-  void operator()(Parallel parallel, Read<&Search::due> due, Read<&Particles::previous_row> previous_row,
-                  Read<&BodyIncidence::first> first, Read<&BodyContacts::geometry> geometry,
+  void operator()(Parallel parallel, Read<&Search::due> due, Read<&Search::reordered> reordered,
+                  Read<&Particles::previous_row> previous_row, Read<&BodyIncidence::first> first, Read<&BodyContacts::geometry> geometry,
                   Read<&PreviousBodyContacts::first> old_first, Read<&PreviousBodyContacts::geometry> old_geometry,
                   Read<&PreviousBodyContacts::overlap> old_overlap, Read<&PreviousBodyContacts::normal> old_normal,
                   If<spring, Read<&PreviousBodyContacts::spring>> old_spring,
@@ -57,7 +57,7 @@ template <bool spring, bool rolling> struct ContactHashingBody {
     if (!due[0]) return;
     parallel(previous_row.size(), 4096, [&](std::size_t begin, std::size_t end) {
       for (std::size_t p = begin; p < end; ++p) {
-        OldContacts old(old_first, previous_row[p]);
+        OldContacts old(old_first, reordered[0] ? previous_row[p] : p);
         for (Index c = first[p]; c < first[p + 1]; ++c) {    // a geometry has the same slots in both lists
           const bool known = old.find(old_geometry, geometry[c]);
           overlap[c] = known ? old_overlap[old.next] : 0.0;

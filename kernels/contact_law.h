@@ -9,7 +9,7 @@
 //
 // A law is a template on its number type R - double, or a SIMD pack with the same operators - and has no branches.
 //
-// To add a law: write a struct like the ones below, and name it in tasks/force_kernels.cpp.
+// To add a law: write a struct like the ones below, and name it in kernels/laws.h.
 #pragma once
 #include <cmath>
 #include "engine/vec3.h"
@@ -18,31 +18,34 @@ namespace skred {
 
 // Coefficients of one pair of materials as the laws use them.
 struct LawCoefficients {
-  double young_eff = 0;         // E* [Pa]
-  double shear_eff = 0;         // G* [Pa]
-  double damping = 0;           // beta = sqrt(10/3) zeta [1]
-  double friction = 0;          // mu [1]
-  double rolling_friction = 0;  // mu_r [1]
+  double young_eff = 0;           // E* [Pa]
+  double shear_eff = 0;           // G* [Pa]
+  double normal_damping = 0;      // beta sqrt(2 E*), beta = sqrt(10/3) zeta [Pa^(1/2)]
+  double tangential_damping = 0;  // beta sqrt(8 G*) [Pa^(1/2)]
+  double friction = 0;            // mu [1]
+  double rolling_friction = 0;    // mu_r [1]
 };
 
 // One contact, as a law sees it. Vectors are of particle i relative to its partner.
 template <class R> struct ContactState {
   R overlap;                    // g [m] > 0
   R radius_eff;                 // R_eff [m]
-  R mass_eff;                   // m_eff [kg]
   R contact_radius;             // a = sqrt(R_eff g) [m], Hertz 1882
+  R damping_scale;              // sqrt(a m_eff): both stiffnesses are proportional to a, and so are both gamma^2 / m_eff
   Vec3T<R> normal;              // n, unit, from the partner to i
   R normal_velocity;            // u_n [m/s] > 0 when separating
   Vec3T<R> tangential_velocity; // u_t [m/s] of the contact point
   Vec3T<R> rolling_velocity;    // relative spin without its part along n [rad/s]
-  R young_eff, shear_eff, damping, friction, rolling_friction;
+  R young_eff, shear_eff, normal_damping, tangential_damping, friction, rolling_friction;
 };
 
-// v without its part along n; v scaled down to a length of at most `limit`.
+// v without its part along n.
 template <class R> Vec3T<R> in_tangent_plane(const Vec3T<R>& v, const Vec3T<R>& n) { return v - dot(v, n) * n; }
-template <class R> Vec3T<R> limited(const Vec3T<R>& v, R limit) {
+
+// What v must be scaled by to be no longer than `limit`: 1, or limit / |v|.
+template <class R> R reduction(const Vec3T<R>& v, R limit) {
   const R length = norm(v);
-  return select(length > limit, limit / length, R(1)) * v;
+  return select(length > limit, limit / length, R(1));
 }
 
 template <bool damped> struct Hertz {
@@ -51,10 +54,9 @@ template <bool damped> struct Hertz {
   // F_n = max(0, 4/3 E* sqrt(R_eff) g^(3/2) - gamma_n u_n)                  [N]     eq (3.1), Hertz 1882
   // gamma_n = beta sqrt(S_n m_eff),  S_n = dF/dg = 2 E* sqrt(R_eff g)       [kg/s]  eq (3.2)
   template <class R> R force(const ContactState<R>& c) const {
-    using std::sqrt;
     const R stiffness = R(2) * c.young_eff * c.contact_radius;
     R f = R(2.0 / 3.0) * stiffness * c.overlap;
-    if constexpr (damped) f = f - c.damping * sqrt(stiffness * c.mass_eff) * c.normal_velocity;
+    if constexpr (damped) f = f - c.normal_damping * c.damping_scale * c.normal_velocity;
     return select(f > R(0), f, R(0));
   }
 };
@@ -65,13 +67,15 @@ template <bool damped> struct TangentialSpring {
   // `spring` is the displacement in the tangent plane since the contact began [m], turned with the contact and kept within the
   // Coulomb limit. k_t = 8 G* sqrt(R_eff g) (3.3), gamma_t = beta sqrt(k_t m_eff) (3.4); F_t is limited again with its dashpot (3.7).
   template <class R> Vec3T<R> force(const ContactState<R>& c, R normal_force, R time_step, Vec3T<R>& spring) const {
-    using std::sqrt;
     const R stiffness = R(8) * c.shear_eff * c.contact_radius;
     const R limit = c.friction * normal_force;
-    spring = limited(in_tangent_plane(spring, c.normal) + time_step * c.tangential_velocity, limit / stiffness);
+    spring = in_tangent_plane(spring, c.normal) + time_step * c.tangential_velocity;
     Vec3T<R> f = -(stiffness * spring);
-    if constexpr (damped) f = f - (c.damping * sqrt(stiffness * c.mass_eff)) * c.tangential_velocity;
-    return limited(f, limit);
+    const R sliding = reduction(f, limit);
+    spring *= sliding;
+    f *= sliding;
+    if constexpr (damped) f -= (c.tangential_damping * c.damping_scale) * c.tangential_velocity;
+    return reduction(f, limit) * f;
   }
 };
 
@@ -82,8 +86,8 @@ struct RollingSpring {
   template <class R> Vec3T<R> moment(const ContactState<R>& c, R normal_force, R time_step, Vec3T<R>& moment) const {
     const R stiffness = R(8) * c.shear_eff * c.contact_radius * c.radius_eff * c.radius_eff;
     const R limit = c.rolling_friction * c.radius_eff * normal_force;
-    moment = limited(in_tangent_plane(moment, c.normal) - (stiffness * time_step) * c.rolling_velocity, limit);
-    return moment;
+    moment = in_tangent_plane(moment, c.normal) - (stiffness * time_step) * c.rolling_velocity;
+    return moment *= reduction(moment, limit);
   }
 };
 

@@ -9,17 +9,27 @@
 
 namespace skred {
 
-template <bool contacts, bool body_contacts, bool rotates> struct ForceApplicationParticle {
+// What contacts hold beside their force.
+struct Moments {
+  bool torque = false;      // the force turns particles
+  bool rolling = false;     // and there is rolling resistance
+  bool arm_ratio = false;   // and the two arms of a contact differ
+};
+
+template <bool contacts, bool body_contacts, Moments moments> struct ForceApplicationParticle {
   static constexpr const char* name = "force_application_particle";
   static constexpr std::size_t grain = 1024;
+  static constexpr bool rotates = moments.torque;
 
   Vec3 gravity;       // [m/s^2]
   double time_step;   // h [s]; 0: forces only
 
   void operator()(Rows<Particles> rows, If<contacts, Read<&Incidence::first>> first,
-                  If<contacts, Read<&Incidence::first_lower>> first_lower, If<contacts, Read<&Incidence::lower>> lower,
-                  If<contacts, Read<&Contacts::force>> pair_force, If<contacts && rotates, Read<&Contacts::torque_i>> torque_i,
-                  If<contacts && rotates, Read<&Contacts::torque_j>> torque_j,
+                  If<contacts, Read<&Incidence::begin_lower>> begin_lower, If<contacts, Read<&Incidence::end_lower>> end_lower,
+                  If<contacts, Read<&Incidence::lower>> lower,
+                  If<contacts, Read<&Contacts::force>> pair_force, If<contacts && rotates, Read<&Contacts::torque>> pair_torque,
+                  If<contacts && moments.rolling, Read<&Contacts::rolling>> pair_rolling,
+                  If<contacts && moments.arm_ratio, Read<&Contacts::arm_ratio>> arm_ratio,
                   If<body_contacts, Read<&BodyIncidence::first>> first_body,
                   If<body_contacts, Read<&BodyContacts::force>> body_force,
                   If<body_contacts && rotates, Read<&BodyContacts::torque>> body_torque, Read<&Particles::mass> mass,
@@ -30,13 +40,17 @@ template <bool contacts, bool body_contacts, bool rotates> struct ForceApplicati
     for (std::size_t p = rows.first; p < rows.last; ++p) {
       Vec3 f, t;
       if constexpr (contacts) {
-        for (Index k = first_lower[p]; k < first_lower[p + 1]; ++k) {
-          f -= pair_force[lower[k]];
-          if constexpr (rotates) t += torque_j[lower[k]];
+        for (Index k = begin_lower[p]; k < end_lower[p]; ++k) {
+          const Index c = lower[k];
+          f -= pair_force[c];
+          if constexpr (moments.arm_ratio) t += arm_ratio[c] * pair_torque[c];
+          else if constexpr (rotates) t += pair_torque[c];
+          if constexpr (moments.rolling) t -= pair_rolling[c];
         }
         for (Index c = first[p]; c < first[p + 1]; ++c) {
           f += pair_force[c];
-          if constexpr (rotates) t += torque_i[c];
+          if constexpr (rotates) t += pair_torque[c];
+          if constexpr (moments.rolling) t += pair_rolling[c];
         }
       }
       if constexpr (body_contacts)

@@ -41,10 +41,11 @@ template <class Law> struct ForceCalculationParticleBody {
       s.overlap = overlap[c];
       s.normal = normal[c];
       s.radius_eff = radius[p] / (1 + radius[p] * curvature[c]);
-      s.mass_eff = motion[w] == Motion::dynamic ? mass[p] * body_mass[w] / (mass[p] + body_mass[w]) : mass[p];
+      const double mass_eff = motion[w] == Motion::dynamic ? mass[p] * body_mass[w] / (mass[p] + body_mass[w]) : mass[p];
       s.contact_radius = std::sqrt(s.radius_eff * s.overlap);
-      s.young_eff = k.young_eff, s.shear_eff = k.shear_eff, s.damping = k.damping;
-      s.friction = k.friction, s.rolling_friction = k.rolling_friction;
+      s.damping_scale = std::sqrt(s.contact_radius * mass_eff);
+      s.young_eff = k.young_eff, s.shear_eff = k.shear_eff, s.normal_damping = k.normal_damping;
+      s.tangential_damping = k.tangential_damping, s.friction = k.friction, s.rolling_friction = k.rolling_friction;
 
       const double arm = radius[p] - 0.5 * s.overlap;
       const Vec3 point = position[p] - arm * s.normal;

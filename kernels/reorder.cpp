@@ -25,19 +25,15 @@ std::uint64_t along(double x, double low, double cell) {
 
 }  // namespace
 
-void Reorder::operator()(Read<&Search::due> due, Read<&Search::count> count, Write<&Search::reach> reach,
+void Reorder::operator()(Read<&Search::due> due, Read<&Search::count> count, Write<&Search::reordered> reordered,
                          Resize<Particles> particles) const {
-  if (!due[0]) return;
   const std::size_t n = particles->rows();
-  particles->searched.data = particles->position.data;
-  reach[0] = 0;
-  for (std::size_t p = 0; p < n; ++p)
-    reach[0] = std::max(reach[0], norm(particles->position.data[p]) + particles->radius.data[p]);
+  reordered[0] = due[0] && every > 0 && (count[0] - 1) % every == 0 && n > 0;
+  if (!reordered[0]) return;
+
   auto& previous = particles->previous_row.data;
   previous.resize(n);
   std::iota(previous.begin(), previous.end(), Index{0});
-  if (every == 0 || (count[0] - 1) % every != 0 || n == 0) return;
-
   const auto& x = particles->position.data;
   Vec3 low = x[0];
   for (const Vec3& p : x) low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};

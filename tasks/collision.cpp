@@ -3,6 +3,7 @@
 #include "kernels/broadphase_body.h"
 #include "kernels/check_motion.h"
 #include "kernels/contact_hashing.h"
+#include "kernels/contact_listing.h"
 #include "kernels/reorder.h"
 #include "tasks/steps.h"
 
@@ -12,11 +13,12 @@ namespace {
 
 template <class Space>
 void add_search(Task& task, const World& w, const Model& m, const Effects& e, double time_step, const Space& space) {
-  const double skin = skin_of(w, m);
-  task.add(CheckMotion<Space>{space, skin, time_step, m.bounds.has_value(), m.bounds.value_or(Bounds{}), m.stop_outside});
+  const bool torques = e.friction || e.rolling;
+  task.add(CheckMotion<Space>{space, margins_of(w, m), time_step, m.bounds.has_value(), m.bounds.value_or(Bounds{}), m.stop_outside});
   task.add(Reorder{cell_of(w, m), m.reorder_every});
-  if (e.contacts)
-    task.add(Broadphase<Space>{space, skin, cell_of(w, m), largest_radius(w), {e.rotation, e.friction, e.rolling}});
+  if (!e.contacts) return;
+  task.add(Broadphase<Space>{space, cell_of(w, m)});
+  task.add(ContactListing<Space>{space, {torques, e.friction, e.rolling, torques && !e.alike}});
 }
 
 }  // namespace
@@ -30,7 +32,7 @@ void add_collision(Task& task, const World& w, const Model& m, const Effects& e,
     else if (e.rolling) task.add(ContactHashing<false, true>{});
   }
   if (e.bodies) {
-    task.add(BroadphaseBody{skin_of(w, m), {e.rotation, e.friction, e.rolling}});
+    task.add(BroadphaseBody{margins_of(w, m).walls, {e.rotation, e.friction, e.rolling}});
     if (e.friction && e.rolling) task.add(ContactHashingBody<true, true>{});
     else if (e.friction) task.add(ContactHashingBody<true, false>{});
     else if (e.rolling) task.add(ContactHashingBody<false, true>{});

@@ -21,11 +21,15 @@ double smallest_radius(const World& w) {
   const auto& r = std::get<Particles>(w).radius.data;
   return r.empty() ? 0 : *std::min_element(r.begin(), r.end());
 }
-double skin_of(const World& w, const Model& m) {
-  constexpr double part = 0.3;   // of the smallest radius: a search every 20 steps or so in a flowing bed
-  return m.skin > 0 ? m.skin : part * smallest_radius(w);
+Margins margins_of(const World& w, const Model& m) {
+  const double radius = smallest_radius(w);
+  const double skin = m.skin > 0 ? m.skin : 0.5 * radius;    // of a pair: what two particles may approach before a search
+  const auto& motion = std::get<Bodies>(w).motion.data;
+  const bool moving = std::any_of(motion.begin(), motion.end(), [](Motion x) { return x != Motion::fixed; });
+  const auto steps = [](const char* name, double value) { const char* s = std::getenv(name); return s ? std::atof(s) : value; };
+  return {steps("LS", 5), steps("LR", 0.01) * radius, steps("SS", 25), steps("SR", 0.05) * radius, 0.5 * skin, moving ? 0.5 * skin : 0};
 }
-double cell_of(const World& w, const Model& m) { return std::max(m.cell, 2 * largest_radius(w) + skin_of(w, m)); }
+double cell_of(const World& w, const Model& m) { return std::max(m.cell, 2 * largest_radius(w) + 2 * margins_of(w, m).largest); }
 
 Effects decide_effects(const World& w, const Model& m) {
   const Particles& p = std::get<Particles>(w);

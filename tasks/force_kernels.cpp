@@ -2,6 +2,7 @@
 #include <cmath>
 #include "kernels/force_calculation_particle_body.h"
 #include "kernels/force_calculation_particle_particle.h"
+#include "kernels/laws.h"
 #include "kernels/restitution.h"
 #include "tasks/steps.h"
 
@@ -11,7 +12,8 @@ namespace {
 
 // beta = sqrt(10/3) zeta, so that gamma_n = beta sqrt(S_n m_eff)   eq (3.2) repaired
 LawCoefficients coefficients(const PairCoefficients& p) {
-  return {p.young_eff, p.shear_eff, std::sqrt(10.0 / 3.0) * damping_ratio_of(p.restitution), p.friction, p.rolling_friction};
+  const double beta = std::sqrt(10.0 / 3.0) * damping_ratio_of(p.restitution);
+  return {p.young_eff, p.shear_eff, beta * std::sqrt(2 * p.young_eff), beta * std::sqrt(8 * p.shear_eff), p.friction, p.rolling_friction};
 }
 
 template <class Law> void add_kernels(Task& task, const World& w, const Model& m, const Effects& e, double h, Law law) {
@@ -20,7 +22,8 @@ template <class Law> void add_kernels(Task& task, const World& w, const Model& m
   const Particles& p = std::get<Particles>(w);
 
   const auto add_pairs = [&](auto kinds, auto space) {
-    task.add(ForceCalculationParticleParticle<Law, decltype(kinds), decltype(space)>{law, kinds, space, h});
+    using Kernel = ForceCalculationParticleParticle<Law, decltype(kinds), decltype(space)>;
+    task.add(Kernel{{law, kinds, space, h}, pair_loop<decltype(Kernel::pairs)>(m.vector_path)});
   };
   const auto add_in = [&](auto space) {
     if (e.alike) {
@@ -38,12 +41,10 @@ template <class Law> void add_kernels(Task& task, const World& w, const Model& m
 }
 
 template <bool damped> void choose(Task& task, const World& w, const Model& m, const Effects& e, double h) {
-  using Normal = Hertz<damped>;
-  using Tangential = TangentialSpring<damped>;
-  if (e.friction && e.rolling) add_kernels(task, w, m, e, h, ContactLaw<Normal, Tangential, RollingSpring>{});
-  else if (e.friction) add_kernels(task, w, m, e, h, ContactLaw<Normal, Tangential, NoLaw>{});
-  else if (e.rolling) add_kernels(task, w, m, e, h, ContactLaw<Normal, NoLaw, RollingSpring>{});
-  else add_kernels(task, w, m, e, h, ContactLaw<Normal, NoLaw, NoLaw>{});
+  if (e.friction && e.rolling) add_kernels(task, w, m, e, h, FrictionAndRolling<damped>{});
+  else if (e.friction) add_kernels(task, w, m, e, h, FrictionOnly<damped>{});
+  else if (e.rolling) add_kernels(task, w, m, e, h, RollingOnly<damped>{});
+  else add_kernels(task, w, m, e, h, NormalOnly<damped>{});
 }
 
 }  // namespace

@@ -7,7 +7,9 @@
 #include "engine/material.h"
 #include "engine/motion.h"
 #include "engine/periodic.h"
+#include "engine/vector_path.h"
 #include "engine/world.h"
+#include "kernels/check_motion.h"
 
 namespace skred {
 
@@ -22,6 +24,7 @@ struct Model {
   std::optional<Bounds> bounds;
   bool stop_outside = true;
   double skin = 0, cell = 0;                       // [m]; 0: chosen from the radii
+  VectorPath vector_path = best_vector_path();     // leaves no trace in the results
   int reorder_every = 20;                          // searches; 0: never
   std::vector<Pose> bodies_at_start;               // by body
   std::vector<std::vector<MotionPiece>> pieces;    // by body; empty unless kinematic
@@ -41,8 +44,8 @@ struct Effects {
 
 Effects decide_effects(const World&, const Model&);
 
-// Skin and cell edge that the search uses [m].
-double skin_of(const World&, const Model&);
+// Margins and cell edge that the search uses.
+Margins margins_of(const World&, const Model&);
 double cell_of(const World&, const Model&);
 double largest_radius(const World&);
 double smallest_radius(const World&);

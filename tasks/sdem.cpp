@@ -14,9 +14,14 @@ template <class Space> void add_integrate(Task& task, const Effects& e, const Sp
   else task.add(Integrate<false, false, Space>{space, h});
 }
 
-template <bool contacts, bool bodies> void add_application(Task& task, const Model& m, bool rotation, double h) {
-  if (rotation) task.add(ForceApplicationParticle<contacts, bodies, true>{m.gravity, h});
-  else task.add(ForceApplicationParticle<contacts, bodies, false>{m.gravity, h});
+template <bool contacts, bool bodies> void add_application(Task& task, const Model& m, const Effects& e, double h) {
+  // Torques exist where a law makes them; an orientation that is only watched has none.
+  const auto add = [&]<Moments moments>() { task.add(ForceApplicationParticle<contacts, bodies, moments>{m.gravity, h}); };
+  if (e.rolling && e.alike) add.template operator()<Moments{true, true, false}>();
+  else if (e.rolling) add.template operator()<Moments{true, true, true}>();
+  else if (e.friction && e.alike) add.template operator()<Moments{true, false, false}>();
+  else if (e.friction) add.template operator()<Moments{true, false, true}>();
+  else add.template operator()<Moments{}>();
 }
 
 }  // namespace
@@ -31,12 +36,10 @@ void add_sdem(Task& task, const World& world, const Model& model, bool initial) 
   add_collision(task, world, model, e, h);
   add_force_calculation(task, world, model, e, h);
 
-  // Torques exist where a law makes them; an orientation that is only watched has none.
-  const bool torques = e.friction || e.rolling;
-  if (e.contacts && e.bodies) add_application<true, true>(task, model, torques, h);
-  else if (e.contacts) add_application<true, false>(task, model, torques, h);
-  else if (e.bodies) add_application<false, true>(task, model, torques, h);
-  else add_application<false, false>(task, model, torques, h);
+  if (e.contacts && e.bodies) add_application<true, true>(task, model, e, h);
+  else if (e.contacts) add_application<true, false>(task, model, e, h);
+  else if (e.bodies) add_application<false, true>(task, model, e, h);
+  else add_application<false, false>(task, model, e, h);
   if (e.dynamic_bodies) task.add(ForceApplicationBody{model.gravity, h});
 }
 

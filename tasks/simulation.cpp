@@ -18,15 +18,16 @@ Simulation::Simulation(World world, Model model, int threads)
   Particles& p = std::get<Particles>(world_);
   const std::size_t n = p.rows();
   for (auto* c : {&p.force, &p.torque, &p.previous_force, &p.previous_torque, &p.velocity, &p.angular_velocity}) c->data.resize(n);
-  p.searched.data = p.position.data;
+  p.searched.data = p.listed.data = p.position.data;
   p.previous_row.data.resize(n);
+  p.search_margin.data.resize(n);
+  p.list_margin.data.resize(n);
   if (p.id.data.size() != n) {
     p.id.data.resize(n);
     for (Index k = 0; k < n; ++k) p.id.data[k] = k;
   }
   if (effects_.orientation) p.orientation.data.resize(n);
   std::get<Incidence>(world_).first.data.assign(n + 1, 0);
-  std::get<Incidence>(world_).first_lower.data.assign(n + 1, 0);
   std::get<BodyIncidence>(world_).first.data.assign(n + 1, 0);
 
   Bodies& b = std::get<Bodies>(world_);

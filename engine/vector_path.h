@@ -1,0 +1,20 @@
+// engine/vector_path.h - which vector instructions the hot loops use. Chosen at run time; every path gives the same bits.
+//
+// A loop is a template on its number type R: double on the scalar path, else the compiler's vector of doubles of that
+// instruction set (engine/pack.h). It is compiled once per path, in translation units of their own with their own flags.
+#pragma once
+#include <optional>
+#include <string_view>
+
+namespace skred {
+
+enum class VectorPath { scalar, sse2, avx2, avx512 };
+
+// The widest that this processor has.
+VectorPath best_vector_path();
+bool has_vector_path(VectorPath);
+
+const char* name_of(VectorPath);                                   // "scalar", "sse2", "avx2", "avx512"
+std::optional<VectorPath> vector_path(std::string_view name);
+
+}  // namespace skred

@@ -1,0 +1,31 @@
+// kernels/contact_listing.h - which neighbours are near enough to touch before the next listing.
+//
+// The force kernels run over every listed pair, so that few should be listed in vain; a search costs much more than a listing, so
+// that it should be rare. Hence two lists with two margins [Pall and Hess 2013, Comput. Phys. Commun. 184, 2641; there: pruning].
+// Nothing but time depends on either.
+#pragma once
+#include "engine/access.h"
+#include "engine/periodic.h"
+
+namespace skred {
+
+// Which columns of the contacts the laws need.
+struct ContactColumns { bool torque = false, spring = false, rolling = false, arm_ratio = false; };
+
+template <class Space> struct ContactListing {
+  static constexpr const char* name = "contact_listing";
+
+  Space space;
+  ContactColumns columns;
+
+  void operator()(Parallel parallel, Read<&Search::list_due> due, Read<&Particles::position> position,
+                  Read<&Particles::radius> radius, Read<&Particles::list_margin> margin, Read<&Neighbourhood::first> first,
+                  Read<&Neighbourhood::first_lower> first_lower, Read<&Neighbourhood::lower> lower, Read<&Neighbours::row> row,
+                  Read<&Neighbours::id> id, Update<&Neighbours::contact> contact, Resize<Contacts> contacts,
+                  Resize<PreviousContacts> previous, Resize<Incidence> incidence) const;
+};
+
+extern template struct ContactListing<OpenSpace>;
+extern template struct ContactListing<PeriodicSpace>;
+
+}  // namespace skred

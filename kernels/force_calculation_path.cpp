@@ -1,0 +1,17 @@
+// The loop over pairs of particles for one set of vector instructions: compiled once per path, with SKRED_PATH its name and the
+// compiler flags that go with it (CMakeLists.txt). Nothing here may be used by other translation units but run<SKRED_PATH>.
+#include "kernels/force_calculation_loop.h"
+#include "engine/periodic.h"
+#include "kernels/laws.h"
+
+namespace skred {
+
+#define SKRED_INSTANTIATE(...) \
+  template void PairForces<__VA_ARGS__>::run<VectorPath::SKRED_PATH>(const PairForces&, const PairColumns&, std::size_t, std::size_t);
+#define SKRED_INSTANTIATE_LAW(LAW) \
+  SKRED_INSTANTIATE(LAW, AlikeParticles, OpenSpace) SKRED_INSTANTIATE(LAW, AlikeParticles, PeriodicSpace) \
+  SKRED_INSTANTIATE(LAW, VariousParticles, OpenSpace) SKRED_INSTANTIATE(LAW, VariousParticles, PeriodicSpace)
+
+SKRED_FOR_EACH_LAW(SKRED_INSTANTIATE_LAW)
+
+}  // namespace skred
