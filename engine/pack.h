@@ -1,13 +1,14 @@
 // engine/pack.h - several numbers side by side in one vector register, and the way between them and rows of a column.
 //
 // Arithmetic, roots and masks are std::experimental::simd's; this file adds what it lacks: reading and writing the rows of a
-// column of Vec3 (x y z x y z ...) as one pack for each of x, y, z. A Lanes<R> names the rows that one batch works on: as
-// many as R is wide, fewer at the end of a range, where the last is repeated for reading and left out when writing.
+// column of Vec3 (x y z x y z ...) as one pack for each of x, y, z.
 #pragma once
-#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <experimental/simd>
+#if defined(__AVX__)
+#include <immintrin.h>
+#endif
 #include "engine/vec3.h"
 
 namespace skred {
@@ -16,103 +17,121 @@ namespace stdx = std::experimental;
 
 template <class R> inline constexpr int lanes = stdx::is_simd_v<R> ? int(sizeof(R) / sizeof(double)) : 1;
 
-// A vector register as the compiler sees it, for shuffles.
-template <int width> struct Register;
-template <> struct Register<2> { typedef double type __attribute__((vector_size(16))); };
-template <> struct Register<4> { typedef double type __attribute__((vector_size(32))); };
-template <> struct Register<8> { typedef double type __attribute__((vector_size(64))); };
-
-// The rows [first, first + count) of a table, or any rows listed in an array.
-template <class R> struct Lanes {
+// Any rows of a table, one per lane; the first `count` count.
+template <class R> struct AnyRows {
   static constexpr int width = lanes<R>;
   std::size_t row[width];
   int count;
+  std::size_t operator[](int k) const { return row[k]; }
+};
 
-  static Lanes range(std::size_t first, std::size_t last) {
-    Lanes l;
-    l.count = last - first < std::size_t(width) ? int(last - first) : width;
-    for (int k = 0; k < width; ++k) l.row[k] = first + std::size_t(k < l.count ? k : l.count - 1);
-    return l;
+// Rows that follow each other: as many as R is wide ...
+template <class R> struct FullRange {
+  static constexpr int count = lanes<R>;
+  std::size_t first;
+  std::size_t operator[](int k) const { return first + std::size_t(k); }
+  AnyRows<R> at(const auto* rows) const {
+    AnyRows<R> out;
+    out.count = count;
+    for (int k = 0; k < count; ++k) out.row[k] = rows[first + std::size_t(k)];
+    return out;
   }
-  template <class Index> static Lanes at(const Index* rows, const Lanes& of) {
-    Lanes l;
-    l.count = of.count;
-    for (int k = 0; k < width; ++k) l.row[k] = rows[of.row[k]];
-    return l;
+};
+
+// ... or fewer at the end of a range: the last is repeated for reading, and left out when writing.
+template <class R> struct PartOfRange {
+  std::size_t first;
+  int count;
+  PartOfRange(std::size_t first_row, std::size_t last)
+      : first(first_row), count(last - first_row < std::size_t(lanes<R>) ? int(last - first_row) : lanes<R>) {}
+  std::size_t operator[](int k) const { return first + std::size_t(k < count ? k : count - 1); }
+  AnyRows<R> at(const auto* rows) const {
+    AnyRows<R> out;
+    out.count = count;
+    for (int k = 0; k < lanes<R>; ++k) out.row[k] = rows[(*this)[k]];
+    return out;
   }
 };
 
 // Numbers of these rows, by `value(row)`.
-template <class R, class Value> R gather(const Lanes<R>& at, const Value& value) {
-  if constexpr (lanes<R> == 1) return value(at.row[0]);
-  else return R([&](auto k) { return value(at.row[k]); });
+template <class R, class Rows, class Value> R gather(const Rows& at, const Value& value) {
+  if constexpr (lanes<R> == 1) return value(at[0]);
+  else return R([&](auto k) { return value(at[k]); });
 }
-template <class R> R load(const double* column, const Lanes<R>& at) {
+template <class R, class Rows> R load(const double* column, const Rows& at) {
   return gather<R>(at, [&](std::size_t row) { return column[row]; });
 }
 
-// Vectors of these rows.
-template <class R> Vec3T<R> load(const Vec3* column, const Lanes<R>& at) {
+// Registers as the compiler sees them, for shuffles.
+typedef double Two __attribute__((vector_size(16)));
+typedef double Four __attribute__((vector_size(32)));
+typedef double Eight __attribute__((vector_size(64)));
+
+// Vectors of these rows. Reads one number beyond each, for which a Buffer keeps room.
+template <class R, class Rows> Vec3T<R> load(const Vec3* column, const Rows& at) {
   if constexpr (lanes<R> == 1) {
-    return column[at.row[0]];
+    return column[at[0]];
+  } else if constexpr (lanes<R> == 2) {
+    const Vec3 &a = column[at[0]], &b = column[at[1]];
+    return {R(Two{a.x, b.x}), R(Two{a.y, b.y}), R(Two{a.z, b.z})};
   } else {
-    using Two = Register<2>::type;
-    const auto two = [&](int k, int from) {                  // (x, y) or (y, z) of one row
-      Two v;
-      std::memcpy(&v, reinterpret_cast<const double*>(column + at.row[k]) + from, sizeof v);
-      return v;
-    };
-    if constexpr (lanes<R> == 2) {
-      const Two a = two(0, 0), b = two(1, 0), c = two(0, 1), d = two(1, 1);
-      return {R(__builtin_shufflevector(a, b, 0, 2)), R(__builtin_shufflevector(a, b, 1, 3)), R(__builtin_shufflevector(c, d, 1, 3))};
-    } else if constexpr (lanes<R> == 4) {
-      const auto four = [&](int k, int from) { return __builtin_shufflevector(two(k, from), two(k + 2, from), 0, 1, 2, 3); };
-      const auto a = four(0, 0), b = four(1, 0), c = four(0, 1), d = four(1, 1);
-      return {R(__builtin_shufflevector(a, b, 0, 4, 2, 6)), R(__builtin_shufflevector(a, b, 1, 5, 3, 7)),
-              R(__builtin_shufflevector(c, d, 1, 5, 3, 7))};
-    } else {
-      const auto four = [&](int k, int from) { return __builtin_shufflevector(two(k, from), two(k + 2, from), 0, 1, 2, 3); };
-      const auto eight = [&](int k, int from) { return __builtin_shufflevector(four(k, from), four(k + 4, from), 0, 1, 2, 3, 4, 5, 6, 7); };
-      const auto a = eight(0, 0), b = eight(1, 0), c = eight(0, 1), d = eight(1, 1);
-      return {R(__builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14)), R(__builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15)),
-              R(__builtin_shufflevector(c, d, 1, 9, 3, 11, 5, 13, 7, 15))};
+#if defined(__AVX__)
+    const auto four = [&](int k) { return _mm256_loadu_pd(&column[at[k]].x); };
+    if constexpr (lanes<R> == 4) {
+      const Four a = four(0), b = four(1), c = four(2), d = four(3);
+      const Four ab = __builtin_shufflevector(a, b, 0, 4, 2, 6), cd = __builtin_shufflevector(c, d, 0, 4, 2, 6);   // x x z z
+      const Four yab = __builtin_shufflevector(a, b, 1, 5, 3, 7), ycd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+      return {R(__builtin_shufflevector(ab, cd, 0, 1, 4, 5)), R(__builtin_shufflevector(yab, ycd, 0, 1, 4, 5)),
+              R(__builtin_shufflevector(ab, cd, 2, 3, 6, 7))};
     }
+#if defined(__AVX512F__)
+    if constexpr (lanes<R> == 8) {
+      const auto eight = [&](int k, int l) -> Eight { return _mm512_insertf64x4(_mm512_castpd256_pd512(four(k)), four(l), 1); };
+      const Eight a = eight(0, 2), b = eight(1, 3), c = eight(4, 6), d = eight(5, 7);
+      const Eight ab = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14), cd = __builtin_shufflevector(c, d, 0, 8, 2, 10, 4, 12, 6, 14);
+      const Eight yab = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15), ycd = __builtin_shufflevector(c, d, 1, 9, 3, 11, 5, 13, 7, 15);
+      return {R(__builtin_shufflevector(ab, cd, 0, 1, 4, 5, 8, 9, 12, 13)), R(__builtin_shufflevector(yab, ycd, 0, 1, 4, 5, 8, 9, 12, 13)),
+              R(__builtin_shufflevector(ab, cd, 2, 3, 6, 7, 10, 11, 14, 15))};
+    }
+#endif
+#endif
   }
 }
 
-// Writes vectors to the rows from `at.row[0]` on, which must follow each other.
-template <class R> void store(const Vec3T<R>& v, Vec3* column, const Lanes<R>& at) {
+// Writes vectors to rows that follow each other.
+template <class R, class Rows> void store(const Vec3T<R>& v, Vec3* column, const Rows& at) {
   if constexpr (lanes<R> == 1) {
-    column[at.row[0]] = v;
+    column[at[0]] = v;
   } else {
-    using All = typename Register<lanes<R>>::type;
-    double* out = reinterpret_cast<double*>(column + at.row[0]);
-    const All x = static_cast<All>(v.x), y = static_cast<All>(v.y), z = static_cast<All>(v.z);
-    const auto put = [&](double* to, const All& part) { std::memcpy(to, &part, sizeof part); };
-    if (at.count == lanes<R>) {
-      if constexpr (lanes<R> == 2) {
-        put(out, __builtin_shufflevector(x, y, 0, 2));
-        put(out + 2, __builtin_shufflevector(z, x, 0, 3));
-        put(out + 4, __builtin_shufflevector(y, z, 1, 3));
-      } else if constexpr (lanes<R> == 4) {
-        const All xy = __builtin_shufflevector(x, y, 0, 4, 1, 5), zx = __builtin_shufflevector(z, x, 0, 5, 2, 7), yz = __builtin_shufflevector(y, z, 2, 6, 3, 7);
-        put(out, __builtin_shufflevector(xy, zx, 0, 1, 4, 5));
-        put(out + 4, __builtin_shufflevector(__builtin_shufflevector(y, z, 1, 5, 1, 5), __builtin_shufflevector(x, y, 2, 6, 2, 6), 0, 1, 4, 5));
-        put(out + 8, __builtin_shufflevector(zx, yz, 2, 3, 6, 7));
-      } else {
-        put(out, __builtin_shufflevector(__builtin_shufflevector(x, y, 0, 8, 0, 1, 9, 1, 2, 10), z, 0, 1, 8, 3, 4, 9, 6, 7));
-        put(out + 8, __builtin_shufflevector(__builtin_shufflevector(y, z, 10, 3, 3, 11, 4, 4, 12, 5), x, 0, 11, 2, 3, 12, 5, 6, 13));
-        put(out + 16, __builtin_shufflevector(__builtin_shufflevector(z, x, 5, 5, 14, 6, 6, 15, 7, 7), y, 13, 1, 2, 14, 4, 5, 15, 7));
-      }
+    if (at.count < lanes<R>) {
+      for (int k = 0; k < at.count; ++k) column[at[k]] = {v.x[k], v.y[k], v.z[k]};
+      return;
+    }
+    double* out = reinterpret_cast<double*>(column + at[0]);
+    const auto put = [&](auto part) { std::memcpy(out, &part, sizeof part), out += lanes<R>; };
+    if constexpr (lanes<R> == 2) {
+      const Two x(v.x), y(v.y), z(v.z);
+      put(__builtin_shufflevector(x, y, 0, 2));
+      put(__builtin_shufflevector(z, x, 0, 3));
+      put(__builtin_shufflevector(y, z, 1, 3));
+    } else if constexpr (lanes<R> == 4) {
+      const Four x(v.x), y(v.y), z(v.z);
+      const Four xy = __builtin_shufflevector(x, y, 0, 4, 2, 6), yz = __builtin_shufflevector(y, z, 1, 5, 3, 7), zx = __builtin_shufflevector(z, x, 0, 5, 2, 7);
+      put(__builtin_shufflevector(xy, zx, 0, 1, 4, 5));      // x0 y0 z0 x1
+      put(__builtin_shufflevector(yz, xy, 0, 1, 6, 7));      // y1 z1 x2 y2
+      put(__builtin_shufflevector(zx, yz, 2, 3, 6, 7));      // z2 x3 y3 z3
     } else {
-      for (int k = 0; k < at.count; ++k) out[3 * k] = x[k], out[3 * k + 1] = y[k], out[3 * k + 2] = z[k];
+      const Eight x(v.x), y(v.y), z(v.z);
+      put(__builtin_shufflevector(__builtin_shufflevector(x, y, 0, 8, 0, 1, 9, 1, 2, 10), z, 0, 1, 8, 3, 4, 9, 6, 7));
+      put(__builtin_shufflevector(__builtin_shufflevector(y, z, 10, 3, 3, 11, 4, 4, 12, 5), x, 0, 11, 2, 3, 12, 5, 6, 13));
+      put(__builtin_shufflevector(__builtin_shufflevector(z, x, 5, 5, 14, 6, 6, 15, 7, 7), y, 13, 1, 2, 14, 4, 5, 15, 7));
     }
   }
 }
-template <class R> void store(const R& v, double* column, const Lanes<R>& at) {
-  if constexpr (lanes<R> == 1) column[at.row[0]] = v;
+template <class R, class Rows> void store(const R& v, double* column, const Rows& at) {
+  if constexpr (lanes<R> == 1) column[at[0]] = v;
   else
-    for (int k = 0; k < at.count; ++k) column[at.row[0] + k] = v[k];
+    for (int k = 0; k < at.count; ++k) column[at[k]] = v[k];
 }
 
 }  // namespace skred

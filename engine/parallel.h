@@ -25,14 +25,16 @@ class Parallel {
   Parallel() = default;                                  // serial
   Parallel(bool threaded, ChunkObserver* observer) : threaded_(threaded), observer_(observer) {}
 
-  // Calls body(first, last) for ranges that cover [0, count). A loop of at most `grain` rows runs inline.
+  // Calls body(first, last) for ranges of `grain` rows, the last one shorter, that cover [0, count). A loop of one range runs
+  // inline. Ranges begin at multiples of the grain: at the beginning of a cache line, in columns.
   template <class Body> void operator()(std::size_t count, std::size_t grain, const Body& body) const {
     if (!threaded_ || count <= grain) return body(std::size_t{0}, count);
     if (observer_) observer_->end_serial();
     // Isolated: a thread that waits here must not start another kernel inside this one (its spans would nest).
     tbb::this_task_arena::isolate([&] {
-      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
-                        [&](const auto& r) { run(r.begin(), r.end(), body); }, tbb::simple_partitioner{});
+      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, (count + grain - 1) / grain),
+                        [&](const auto& r) { run(r.begin() * grain, std::min(r.end() * grain, count), body); },
+                        tbb::simple_partitioner{});
     });
     if (observer_) observer_->begin_serial();
   }

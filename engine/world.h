@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <tuple>
-#include <vector>
+#include "engine/buffer.h"
 #include "engine/geometry/shape.h"
 #include "engine/vec3.h"
 
@@ -14,7 +14,7 @@ namespace skred {
 template <class V> struct Column {
   const char* name;             // shown in the graph, the timeline and the output files
   const char* unit;             // SI; "1" if dimensionless
-  std::vector<V> data = {};
+  Buffer<V> data = {};
 };
 
 using Index = std::uint32_t;    // a row of a table

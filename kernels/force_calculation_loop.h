@@ -1,6 +1,6 @@
 // kernels/force_calculation_loop.h - the loop over pairs of particles, and the overlap, arms and velocities that a law asks for.
 //
-// The number type R is double, or a pack of doubles: then one turn of the loop computes as many contacts as R is wide. Lanes that
+// The number type R is double, or a pack of doubles: then one turn of a loop computes as many contacts as R is wide. Lanes that
 // do not touch compute numbers without meaning, which the last lines replace by zeros.
 #pragma once
 #include "engine/pack.h"
@@ -8,72 +8,94 @@
 
 namespace skred {
 
-// Radii, masses and coefficients of the contacts of one batch.
-template <class R> struct PairProperties {
-  R radius_i, radius_j, radius_eff, mass_eff;
-  R young_eff, shear_eff, normal_damping, tangential_damping, friction, rolling_friction;
+// A contact of two particles: what the law sees, and the arms from both centres to the contact point [m].
+template <class R> struct PairState {
+  ContactState<R> contact;
+  R arm_i, arm_j;
 };
 
-template <class R> PairProperties<R> properties(const AlikeParticles& p, const PairColumns&, const Lanes<R>&, const Lanes<R>&) {
-  const LawCoefficients& k = p.coefficients;
-  return {p.radius, p.radius, p.radius * p.radius / (p.radius + p.radius), p.mass * p.mass / (p.mass + p.mass),
-          k.young_eff, k.shear_eff, k.normal_damping, k.tangential_damping, k.friction, k.rolling_friction};
+template <class R> struct PairRadiiAndMass { R radius_i, radius_j, radius_eff, mass_eff; };
+
+template <class R, class Lanes>
+PairRadiiAndMass<R> radii_and_mass(const AlikeParticles& p, const PairColumns&, const Lanes&, const Lanes&) {
+  return {p.radius, p.radius, p.radius * p.radius / (p.radius + p.radius), p.mass * p.mass / (p.mass + p.mass)};
+}
+template <class R, class Lanes>
+PairRadiiAndMass<R> radii_and_mass(const VariousParticles&, const PairColumns& c, const Lanes& i, const Lanes& j) {
+  const R radius_i = load<R>(c.radius, i), radius_j = load<R>(c.radius, j), mass_i = load<R>(c.mass, i), mass_j = load<R>(c.mass, j);
+  return {radius_i, radius_j, radius_i * radius_j / (radius_i + radius_j), mass_i * mass_j / (mass_i + mass_j)};
 }
 
-template <class R>
-PairProperties<R> properties(const VariousParticles& p, const PairColumns& c, const Lanes<R>& i, const Lanes<R>& j) {
-  Lanes<R> pair{{}, i.count};
-  for (int k = 0; k < lanes<R>; ++k) pair.row[k] = c.material[i.row[k]] * p.materials + c.material[j.row[k]];
-  const LawCoefficients* table = p.coefficients.data();
-  const auto of_pair = [&](double LawCoefficients::* what) { return gather<R>(pair, [&](std::size_t row) { return table[row].*what; }); };
-  const R radius_i = load<R>(c.radius, i), radius_j = load<R>(c.radius, j), mass_i = load<R>(c.mass, i), mass_j = load<R>(c.mass, j);
-  return {radius_i, radius_j, radius_i * radius_j / (radius_i + radius_j), mass_i * mass_j / (mass_i + mass_j),
-          of_pair(&LawCoefficients::young_eff), of_pair(&LawCoefficients::shear_eff), of_pair(&LawCoefficients::normal_damping),
+template <class R, class Lanes> LawCoefficientsT<R> coefficients(const AlikeParticles& p, const PairColumns&, const Lanes&) {
+  const LawCoefficients& k = p.coefficients;
+  return {k.normal_stiffness, k.tangential_stiffness, k.normal_damping, k.tangential_damping, k.friction, k.rolling_friction};
+}
+template <class R, class Lanes> LawCoefficientsT<R> coefficients(const VariousParticles& p, const PairColumns& c, const Lanes& row) {
+  const auto of_pair = [&](double LawCoefficients::* what) {
+    return gather<R>(row, [&](std::size_t r) { return p.coefficients[c.material[c.i[r]] * p.materials + c.material[c.j[r]]].*what; });
+  };
+  return {of_pair(&LawCoefficients::normal_stiffness), of_pair(&LawCoefficients::tangential_stiffness), of_pair(&LawCoefficients::normal_damping),
           of_pair(&LawCoefficients::tangential_damping), of_pair(&LawCoefficients::friction), of_pair(&LawCoefficients::rolling_friction)};
 }
 
-// Flat: a call in the loop would pass packs through memory.
-template <class R, class Pairs> [[gnu::flatten]] void calculate_forces(const Pairs& pairs, const PairColumns& c, std::size_t first, std::size_t last) {
-  using Law = typename Pairs::Law;
+template <class R, class Pairs, class Lanes> PairState<R> state_of(const Pairs& pairs, const PairColumns& c, const Lanes& row) {
   using std::sqrt;
-  for (; first < last; first += lanes<R>) {
-    const auto row = Lanes<R>::range(first, last);
-    const auto i = Lanes<R>::at(c.i, row), j = Lanes<R>::at(c.j, row);
-    const PairProperties<R> p = properties(pairs.kinds, c, i, j);
+  const auto i = row.at(c.i), j = row.at(c.j);
+  const auto p = radii_and_mass<R>(pairs.kinds, c, i, j);
 
-    const Vec3T<R> branch = pairs.space.shortest(load<R>(c.position, i) - load<R>(c.position, j));
-    const R distance2 = dot(branch, branch), reach = p.radius_i + p.radius_j;
-    const auto touching = distance2 < reach * reach;
-    const R distance = sqrt(distance2);
-    ContactState<R> s;
-    s.overlap = reach - distance;                            // g = R_i + R_j - |x_i - x_j|   eq (2.8)
-    s.normal = select(distance > R(0), (R(1) / distance) * branch, Vec3T<R>{R(0), R(0), R(1)});
-    s.radius_eff = p.radius_eff;
-    s.contact_radius = sqrt(p.radius_eff * s.overlap);
-    s.damping_scale = sqrt(s.contact_radius * p.mass_eff);
-    s.young_eff = p.young_eff, s.shear_eff = p.shear_eff, s.normal_damping = p.normal_damping;
-    s.tangential_damping = p.tangential_damping, s.friction = p.friction, s.rolling_friction = p.rolling_friction;
+  const Vec3T<R> branch = pairs.space.shortest(load<R>(c.position, i) - load<R>(c.position, j));
+  const R distance = norm(branch);
+  PairState<R> pair;
+  ContactState<R>& s = pair.contact;
+  s.overlap = p.radius_i + p.radius_j - distance;            // g = R_i + R_j - |x_i - x_j|   eq (2.8)
+  s.normal = select(distance > R(0), (R(1) / distance) * branch, Vec3T<R>{R(0), R(0), R(1)});
+  s.radius_eff = p.radius_eff;
+  s.contact_radius = sqrt(p.radius_eff * s.overlap);
+  s.damping_scale = sqrt(s.contact_radius * p.mass_eff);
+  pair.arm_i = p.radius_i - R(0.5) * s.overlap;
+  pair.arm_j = p.radius_j - R(0.5) * s.overlap;
 
-    Vec3T<R> u = load<R>(c.velocity, i) - load<R>(c.velocity, j);
-    const R half = R(0.5) * s.overlap, arm_i = p.radius_i - half, arm_j = p.radius_j - half;
-    s.normal_velocity = dot(u, s.normal);                    // spin adds nothing along n
-    if constexpr (Law::rotates) {
-      const Vec3T<R> spin_i = load<R>(c.spin, i), spin_j = load<R>(c.spin, j);
-      u -= cross(arm_i * spin_i + arm_j * spin_j, s.normal);
-      s.tangential_velocity = u - s.normal_velocity * s.normal;
-      s.rolling_velocity = in_tangent_plane(spin_i - spin_j, s.normal);
-    }
-    Vec3T<R> spring, rolling;
-    if constexpr (Law::has_tangential) spring = load<R>(c.spring, row);
-    if constexpr (Law::has_rolling) rolling = load<R>(c.rolling, row);
-    const ContactForce<R> f = evaluate(pairs.law, s, R(pairs.time_step), spring, rolling);
+  Vec3T<R> u = load<R>(c.velocity, i) - load<R>(c.velocity, j);
+  s.normal_velocity = dot(u, s.normal);                      // spin adds nothing along n
+  if constexpr (Pairs::Law::rotates) {
+    const Vec3T<R> spin_i = load<R>(c.spin, i), spin_j = load<R>(c.spin, j);
+    u -= cross(pair.arm_i * spin_i + pair.arm_j * spin_j, s.normal);
+    s.tangential_velocity = u - s.normal_velocity * s.normal;
+    s.rolling_velocity = in_tangent_plane(spin_i - spin_j, s.normal);
+  }
+  return pair;
+}
 
-    const Vec3T<R> none{R(0), R(0), R(0)};                   // not touching: no force, and the contact forgets
-    store(select(touching, f.force, none), c.force, row);
-    if constexpr (Law::rotates) store(select(touching, -arm_i * f.couple, none), c.torque, row);
-    if constexpr (Law::rotates && !Pairs::Kinds::alike) store(arm_j / arm_i, c.arm_ratio, row);
-    if constexpr (Law::has_tangential) store(select(touching, spring, none), c.spring, row);
-    if constexpr (Law::has_rolling) store(select(touching, rolling, none), c.rolling, row);
+template <class R, class Pairs, class Lanes>
+void apply_law(const Pairs& pairs, const PairState<R>& pair, const PairColumns& c, const Lanes& row) {
+  using Law = typename Pairs::Law;
+  Vec3T<R> spring, rolling;
+  if constexpr (Law::has_tangential) spring = load<R>(c.spring, row);
+  if constexpr (Law::has_rolling) rolling = load<R>(c.rolling, row);
+  const ContactForce<R> f =
+      evaluate(pairs.law, pair.contact, coefficients<R>(pairs.kinds, c, row), R(pairs.time_step), spring, rolling);
+
+  const auto touching = pair.contact.overlap > R(0);
+  const Vec3T<R> none{R(0), R(0), R(0)};                     // not touching: no force, and the contact forgets
+  store(select(touching, f.force, none), c.force, row);
+  if constexpr (Law::rotates) store(select(touching, -pair.arm_i * f.couple, none), c.torque, row);
+  if constexpr (Law::rotates && !Pairs::Kinds::alike) store(pair.arm_j / pair.arm_i, c.arm_ratio, row);
+  if constexpr (Law::has_tangential) store(select(touching, spring, none), c.spring, row);
+  if constexpr (Law::has_rolling) store(select(touching, rolling, none), c.rolling, row);
+}
+
+// In two passes over a few packs at a time: roots and divisions wait long for each other, and a processor fills the waiting with
+// work on the next packs only if it is not far ahead. Flat: a call would pass packs through memory.
+template <class R, class Pairs> [[gnu::flatten]] void calculate_forces(const Pairs& pairs, const PairColumns& c, std::size_t first, std::size_t last) {
+  constexpr std::size_t packs = 4, width = lanes<R>;
+  PairState<R> state[packs];
+  for (; first + packs * width <= last; first += packs * width) {
+    for (std::size_t k = 0; k < packs; ++k) state[k] = state_of<R>(pairs, c, FullRange<R>{first + k * width});
+    for (std::size_t k = 0; k < packs; ++k) apply_law(pairs, state[k], c, FullRange<R>{first + k * width});
+  }
+  for (; first < last; first += width) {
+    const PartOfRange<R> row(first, last);
+    apply_law(pairs, state_of<R>(pairs, c, row), c, row);
   }
 }
 

@@ -44,8 +44,6 @@ template <class Law> struct ForceCalculationParticleBody {
       const double mass_eff = motion[w] == Motion::dynamic ? mass[p] * body_mass[w] / (mass[p] + body_mass[w]) : mass[p];
       s.contact_radius = std::sqrt(s.radius_eff * s.overlap);
       s.damping_scale = std::sqrt(s.contact_radius * mass_eff);
-      s.young_eff = k.young_eff, s.shear_eff = k.shear_eff, s.normal_damping = k.normal_damping;
-      s.tangential_damping = k.tangential_damping, s.friction = k.friction, s.rolling_friction = k.rolling_friction;
 
       const double arm = radius[p] - 0.5 * s.overlap;
       const Vec3 point = position[p] - arm * s.normal;
@@ -57,7 +55,7 @@ template <class Law> struct ForceCalculationParticleBody {
         s.rolling_velocity = in_tangent_plane(spin[p] - body_spin[w], s.normal);
       }
       Vec3 none;
-      const ContactForce<double> f = evaluate(law, s, time_step, entry(spring, c, none), entry(rolling, c, none));
+      const ContactForce<double> f = evaluate(law, s, k, time_step, entry(spring, c, none), entry(rolling, c, none));
       force[c] = f.force;
       if constexpr (Law::rotates) torque[c] = f.rolling - arm * f.couple;
       if constexpr (Law::has_rolling) rolling_torque[c] = f.rolling;

@@ -13,7 +13,7 @@ struct MoveBodies {
   static constexpr const char* name = "move_bodies";
 
   std::vector<std::vector<MotionPiece>> pieces;   // by body; empty unless kinematic
-  std::vector<Pose> at_start;                     // by body
+  Buffer<Pose> at_start;                          // by body
   double step_length;                             // [s] time = step * step_length
   double time_step;                               // h [s] of this step; 0 before the first
 

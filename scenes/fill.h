@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <vector>
+#include "engine/buffer.h"
 #include "scenes/scene.h"
 
 namespace skred {
@@ -11,10 +12,10 @@ inline constexpr double max_particles = 4294967294.0;   // ids are 32 bits, and 
 
 // One entry per particle; its index is the particle's id.
 struct ParticleSet {
-  std::vector<Vec3> position;            // [m]
-  std::vector<Vec3> velocity;            // [m/s]
-  std::vector<Vec3> angular_velocity;    // [rad/s]
-  std::vector<double> radius;            // [m]
+  Buffer<Vec3> position;            // [m]
+  Buffer<Vec3> velocity;            // [m/s]
+  Buffer<Vec3> angular_velocity;    // [rad/s]
+  Buffer<double> radius;            // [m]
   std::vector<std::uint32_t> material;   // index into scene.materials
   std::size_t size() const { return position.size(); }
 };

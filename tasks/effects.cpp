@@ -7,7 +7,7 @@ namespace skred {
 
 namespace {
 
-template <class V> bool all_equal(const std::vector<V>& v) {
+template <class V> bool all_equal(const Buffer<V>& v) {
   return std::adjacent_find(v.begin(), v.end(), std::not_equal_to<>()) == v.end();
 }
 

@@ -13,7 +13,7 @@ namespace {
 // beta = sqrt(10/3) zeta, so that gamma_n = beta sqrt(S_n m_eff)   eq (3.2) repaired
 LawCoefficients coefficients(const PairCoefficients& p) {
   const double beta = std::sqrt(10.0 / 3.0) * damping_ratio_of(p.restitution);
-  return {p.young_eff, p.shear_eff, beta * std::sqrt(2 * p.young_eff), beta * std::sqrt(8 * p.shear_eff), p.friction, p.rolling_friction};
+  return {2 * p.young_eff, 8 * p.shear_eff, beta * std::sqrt(2 * p.young_eff), beta * std::sqrt(8 * p.shear_eff), p.friction, p.rolling_friction};
 }
 
 template <class Law> void add_kernels(Task& task, const World& w, const Model& m, const Effects& e, double h, Law law) {

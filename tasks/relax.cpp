@@ -79,11 +79,11 @@ Relaxation relax(World& world, const Model& model, double limit, int most_sweeps
   Relaxation done;
   done.overlap_before = done.overlap_after = greatest(o).ratio;
   const auto by_id = [&] {
-    std::vector<Vec3> x;
+    Buffer<Vec3> x;
     for (const Index r : rows_by_id(o.particles())) x.push_back(o.particles().position.data[r]);
     return x;
   };
-  const std::vector<Vec3> at_start = by_id();
+  const Buffer<Vec3> at_start = by_id();
   while (done.overlap_after > limit && done.sweeps < most_sweeps) {
     const std::size_t n = o.particles().rows();
     std::vector<Vec3> shift(n);
@@ -105,7 +105,7 @@ Relaxation relax(World& world, const Model& model, double limit, int most_sweeps
     done.overlap_after = greatest(o).ratio;
     ++done.sweeps;
   }
-  const std::vector<Vec3> at_end = by_id();
+  const Buffer<Vec3> at_end = by_id();
   for (std::size_t k = 0; k < at_end.size(); ++k) {
     Vec3 d = at_end[k] - at_start[k];
     if (model.periodic) d = model.periodic->shortest(d);

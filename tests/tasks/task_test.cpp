@@ -96,7 +96,7 @@ TEST(Task, ColumnNamedTwiceIsRefused) {
 }
 
 TEST(Task, EveryWayOfRunningGivesTheSameBits) {
-  std::vector<std::vector<Vec3>> results;
+  std::vector<Buffer<Vec3>> results;
   for (int way = 0; way < 4; ++way) {
     World w = spheres(37);
     tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 3);
