@@ -20,6 +20,9 @@
 
 namespace skred {
 
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Bandwidth, bytes, rate)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Limits, bandwidth, flops, roots)
+
 namespace {
 
 ReadOptions read_options(const BenchOptions& o) {
@@ -51,18 +54,24 @@ std::int64_t steps_of_window(const BenchOptions& o, double step_seconds) {
   return o.steps ? o.steps : std::max(least, std::int64_t(std::lround(duration / std::max(step_seconds, 1e-9))));
 }
 
+// Tells a terminal that something goes on.
+struct Waiting {
+  std::string scene;
+  std::int64_t repeats;
+  bool terminal = isatty(STDERR_FILENO);
+  Waiting(const std::string& name, std::int64_t n) : scene(name), repeats(n) { show(0); }
+  void show(std::int64_t done) const {
+    if (terminal) std::fprintf(stderr, "\r\x1b[2Ktiming %s: %lld of %lld", scene.c_str(), (long long)done, (long long)repeats);
+  }
+  ~Waiting() { if (terminal) std::fprintf(stderr, "\r\x1b[2K"); }
+};
+
 void add_rooflines(SceneResult& r, const InterruptGuard& interrupt) {
   for (const int threads : r.threads) {
     const Summary s = summarize(r, threads, r.executions.front());
-    const double bytes = bytes_of_step(s, r.particles());
-    Child child([&] {
-      return [&](const nlohmann::json&) {
-        const Limits l = measure_limits(threads, bytes);
-        return nlohmann::json{l.bandwidth, l.flops, l.roots};
-      };
-    }, interrupt);
-    const nlohmann::json l = child.ask();
-    r.rooflines.push_back(roofline(s, r.particles(), bytes, {l[0], l[1], l[2]}));
+    const double bytes = largest_working_set(s, r.particles());
+    Child child([&] { return [&](const nlohmann::json&) { return nlohmann::json(measure_limits(threads, bytes)); }; }, interrupt);
+    r.rooflines.push_back(roofline(s, r.particles(), child.ask().get<Limits>()));
   }
 }
 
@@ -89,7 +98,8 @@ SceneResult time_scene(const BenchOptions& o, const std::string& name, const Int
   }
   check_hashes(r, &Process::hash, o.warm_up);
 
-  for (std::int64_t k = 0; k < o.repeats; ++k)
+  Waiting waiting(name, o.repeats);
+  for (std::int64_t k = 0; k < o.repeats; waiting.show(++k))
     for (const Execution e : o.executions)
       for (const bool frame : {false, true})
         if (!frame || (o.frames && e == o.executions.front()))

@@ -10,8 +10,7 @@
 #include "profiling/bench/bench_scenes.h"
 #include "profiling/bench/child.h"
 #include "profiling/bench/report.h"
-#include "profiling/bench/state_file.h"
-#include "profiling/readable.h"
+#include "profiling/write_file.h"
 #include "scenes/errors.h"
 #include "scenes/interrupt.h"
 #include "scenes/thread_option.h"
@@ -104,9 +103,8 @@ int BenchCommand::run() {
     return exit_ok;
   }
   check_scenes(options_);
-  make_states_folder(options_.states);
   for (const std::string& file : {json_, csv_})
-    if (!file.empty() && file != "-") write_text_atomically(file, "", Sync::no);      // now, not after minutes
+    if (file != "-") check_writable(file);                   // now, not after minutes
   return time();
 }
 

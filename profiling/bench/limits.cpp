@@ -15,7 +15,7 @@ using Clock = std::chrono::steady_clock;
 
 // Runs `work` on so many threads at once, again and again for a while, and returns the calls per second of all of them together.
 double calls_per_second(int threads, const std::function<void(int)>& work) {
-  constexpr auto duration = std::chrono::milliseconds(150);
+  constexpr auto duration = std::chrono::milliseconds(100);
   std::atomic<int> ready{0};
   std::atomic<long> calls{0};
   std::vector<std::thread> team;
@@ -68,7 +68,7 @@ constexpr auto flops_avx2 = flops_baseline, roots_avx2 = roots_baseline;
 const bool wide = false;
 #endif
 
-double bandwidth(int threads, double working_set) {
+double triad(int threads, double working_set) {
   const auto n = std::max<std::size_t>(1024, std::size_t(working_set / (3 * sizeof(double) * threads)));
   struct Arrays { std::vector<double> a, b, c; };
   std::vector<Arrays> own(static_cast<std::size_t>(threads));
@@ -85,10 +85,19 @@ double bandwidth(int threads, double working_set) {
 
 }  // namespace
 
-Limits measure_limits(int threads, double working_set) {
-  Limits best;                                   // of three: what disturbs only slows down
-  for (int k = 0; k < 3; ++k) {
-    best.bandwidth = std::max(best.bandwidth, bandwidth(threads, working_set));
+double Limits::bandwidth_for(double bytes) const {
+  double rate = bandwidth.front().rate;
+  for (const Bandwidth& b : bandwidth)
+    if (b.bytes <= bytes) rate = b.rate;
+  return rate;
+}
+
+Limits measure_limits(int threads, double largest) {
+  constexpr double least = 1 << 18, most = 1 << 30;        // [byte] fits into a core's own cache; does not take the machine's memory
+  Limits best;
+  for (double bytes = std::clamp(largest, least, most); bytes >= least; bytes /= 4) best.bandwidth.insert(best.bandwidth.begin(), {bytes, 0});
+  for (int k = 0; k < 3; ++k) {                            // the best of three: what disturbs only slows down
+    for (Bandwidth& b : best.bandwidth) b.rate = std::max(b.rate, triad(threads, b.bytes));
     best.flops = std::max(best.flops, 2.0 * chains * rounds * calls_per_second(threads, wide ? flops_avx2 : flops_baseline));
     best.roots = std::max(best.roots, 2.0 * chains * rounds * calls_per_second(threads, wide ? roots_avx2 : roots_baseline));
   }

@@ -46,7 +46,9 @@ json json_of(const Roofline& f) {
     kernels.push_back({{"name", k.name}, {"bytes", k.bytes}, {"flops", k.flops}, {"roots", k.roots}, {"memory_seconds", k.memory_seconds},
                        {"arithmetic_seconds", k.arithmetic_seconds}, {"predicted_seconds", std::max(k.memory_seconds, k.arithmetic_seconds)},
                        {"measured_seconds", k.measured_seconds}, {"bound", k.memory_seconds > k.arithmetic_seconds ? "memory" : "arithmetic"}});
-  return {{"threads", f.threads}, {"bandwidth", f.bandwidth}, {"flops", f.flops}, {"roots", f.roots}, {"working_set", f.working_set}, {"kernels", kernels}};
+  json bandwidth = json::array();
+  for (const Bandwidth& b : f.limits.bandwidth) bandwidth.push_back({{"bytes", b.bytes}, {"bytes_per_second", b.rate}});
+  return {{"threads", f.threads}, {"bandwidth", bandwidth}, {"flops_per_second", f.limits.flops}, {"roots_per_second", f.limits.roots}, {"kernels", kernels}};
 }
 
 template <class T> json list_of(const std::vector<T>& all) {

@@ -4,7 +4,6 @@
 #include "profiling/bench/report.h"
 #include "profiling/readable.h"
 #include "scenes/machine.h"
-#include "scenes/progress.h"
 #include "tasks/simulation.h"
 
 namespace skred {
@@ -73,11 +72,16 @@ std::string kernel_table(const SceneResult& r, const std::vector<Summary>& by_th
 }
 
 std::string roofline_table(const Roofline& f) {
-  std::string out = fmt::format("  at best with {}: {} GB/s for the {} MB of a step, {} GFLOP/s, {} G divisions and roots/s\n"
-                                "  {:<38}{:>9}{:>9}{:>12}{:>12}{:>11}{:>7}  {}\n",
-                                thread_text(f.threads), digits(f.bandwidth * 1e-9), digits(f.working_set * 1e-6), digits(f.flops * 1e-9),
-                                digits(f.roots * 1e-9), "kernel", "MB/step", "Mop/step", "memory us", "compute us", "measured", "ratio", "bound");
+  std::string out = fmt::format("  at best with {}: {} G additions and multiplications/s, {} G divisions and roots/s,\n   ", thread_text(f.threads),
+                                digits(f.limits.flops * 1e-9), digits(f.limits.roots * 1e-9));
+  for (const Bandwidth& b : f.limits.bandwidth)
+    out += fmt::format("{} {} GB/s in {} MB", &b == &f.limits.bandwidth.front() ? "" : ",", digits(b.rate * 1e-9), digits(b.bytes * 1e-6));
+  out += fmt::format("\n  {:<38}{:>9}{:>9}{:>12}{:>12}{:>11}{:>7}  {}\n", "kernel", "MB/step", "Mop/step", "memory us", "compute us", "measured",
+                     "ratio", "bound");
+  double step = 0;
+  for (const KernelBound& k : f.kernels) step += k.measured_seconds;
   for (const KernelBound& k : f.kernels) {
+    if (k.measured_seconds < 0.005 * step) continue;  // half a per cent of the time is not worth a line
     const double least = std::max(k.memory_seconds, k.arithmetic_seconds);
     out += fmt::format("  {:<38}{:>9}{:>9}{:>12}{:>12}{:>11}{:>7}  {}\n", k.name, digits(k.bytes * 1e-6), digits((k.flops + k.roots) * 1e-6),
                        digits(1e6 * k.memory_seconds), digits(1e6 * k.arithmetic_seconds), digits(1e6 * k.measured_seconds),
@@ -98,7 +102,7 @@ std::string text_head(const BenchMachine& m, const BenchOptions& o) {
   const std::string commit = m.commit.empty() ? "" : " (" + m.commit + ")";
   const std::string window = o.steps ? fmt::format("{} steps", o.steps) : "about 1 s";
   return fmt::format("{}{}, smooth DEM; {}, {}; load average {:.2f}\n{}, {}; {}; vector path: {}\n"
-                     "median (least - most) of {} windows of {}, thread counts in turn; rates in million particle-steps per second\n",
+                     "median (least - most) of {} windows of {}; rates in million particle-steps per second\n",
                      m.version, commit, m.processor, m.processors == 1 ? "1 processor" : fmt::format("{} processors", m.processors),
                      load_average(), m.compiler, m.build, m.flags, m.vectors, o.repeats, window);
 }
@@ -110,32 +114,34 @@ std::string text_of(const SceneResult& r, bool all_kernels) {
   const Summary& first = by_threads.front();
 
   std::string out = fmt::format("\n{}: {} particles, {}\n", r.name, count(n), r.what);
-  out += fmt::format("  a particle has {} contacts with others, {} with walls, {} and {} candidates; a search every {} steps\n",
+  out += fmt::format("  a particle has {} contacts with others, {} with walls, {} and {} candidates; {}\n",
                      digits(coordination(first, n)), digits(first.wall_contacts / double(n)), digits(first.candidates / double(n)),
-                     digits(first.wall_candidates / double(n)), first.searches ? digits(double(first.steps) / double(first.searches)) : "> " + std::to_string(first.steps));
-  std::string head = fmt::format("  {:>7}  {:<22}{:>10}{:>12}  {:<20}", "threads", " rate, " + r.executions.front(), "us/step", "ns/contact", " efficiency");
+                     digits(first.wall_candidates / double(n)),
+                     first.searches ? "a search every " + digits(double(first.steps) / double(first.searches)) + " steps"
+                                    : fmt::format("no search in {} steps", first.steps));
+  std::string head = fmt::format("  {:>7}  {:<21}{:>9}{:>12}  {:<20}", "threads", " rate, " + r.executions.front(), "us/step", "ns/contact", " efficiency");
   for (std::size_t e = 1; e < r.executions.size(); ++e) head += fmt::format("{:>8}", r.executions[e]);
-  out += head + fmt::format("{:>13}\n", "byte/particle");
+  out += head + fmt::format("{:>15}\n", "byte/particle");
   for (std::size_t k = 0; k < by_threads.size(); ++k) {
     const Summary& s = by_threads[k];
     const Process& p = r.processes[k];
-    out += fmt::format("  {:>7}  {:<22}{}{:>12}  {:<20}", s.threads, with_spread(s.rate, 1e-6),
-                       right(grouped_digits(std::llround(1e6 * s.step_seconds.median)), 10), digits(s.contact_nanoseconds.median),
+    out += fmt::format("  {:>7}  {:<21}{}{:>12}  {:<20}", s.threads, with_spread(s.rate, 1e-6),
+                       right(grouped_digits(std::llround(1e6 * s.step_seconds.median)), 9), digits(s.contact_nanoseconds.median),
                        s.efficiency ? with_spread(*s.efficiency) : "");
     for (std::size_t e = 1; e < r.executions.size(); ++e) {
       const bool same_for_all = r.executions[e] == "serial" && k > 0;      // it uses one thread of however many
       out += fmt::format("{:>8}", same_for_all ? "" : digits(1e-6 * summarize(r, s.threads, r.executions[e]).rate.median));
     }
-    out += right(grouped_digits(std::llround((p.peak_memory - p.memory_before) / double(n))), 13) + "\n";
+    out += right(grouped_digits(std::llround((p.peak_memory - p.memory_before) / double(n))), 15) + "\n";
   }
   out += all_kernels ? kernel_table(r, by_threads) : main_shares(first);
   for (const FrameCost& c : frame_costs(r))
-    out += fmt::format("  a frame costs {} with {}: {} of 1000 steps\n", c.seconds.median > 0 ? readable_time(c.seconds.median) : "nothing that can be seen",
-                       thread_text(c.threads), readable_share(std::max(0.0, c.share_of_1000_steps)));
+    out += fmt::format("  a frame adds {} ms with {}: {:.2f} % of 1000 steps\n", with_spread(c.seconds, 1e3), thread_text(c.threads),
+                       100 * c.share_of_1000_steps);
   for (const Roofline& f : r.rooflines) out += roofline_table(f);
   const Process& p = r.processes.front();
-  out += fmt::format("  first step done {} after the start ({} of it reading); state hash {} after {} steps, whatever ran them\n",
-                     duration_text(p.first_step_seconds), duration_text(p.read_seconds), p.hash, r.warm_up);
+  out += fmt::format("  first step done {} after the start ({} of it reading); state hash {} after {} steps\n",
+                     readable_time(p.first_step_seconds), readable_time(p.read_seconds), p.hash, r.warm_up);
   return out;
 }
 

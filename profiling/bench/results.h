@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <vector>
+#include "profiling/bench/limits.h"
 #include "profiling/bench/spread.h"
 #include "tasks/simulation.h"
 
@@ -43,8 +44,7 @@ struct KernelBound {
 };
 struct Roofline {
   int threads = 1;
-  double bandwidth = 0, flops = 0, roots = 0;   // [byte/s], [1/s]
-  double working_set = 0;                   // [byte] that the bandwidth was measured with
+  Limits limits;
   std::vector<KernelBound> kernels;
 };
 

@@ -46,26 +46,30 @@ double per_step(const KernelCost& k, const Summary& s) {
   return k.often == every_step ? 1 : s.steps ? double(s.searches) / double(s.steps) : 0;
 }
 
-}  // namespace
-
-double bytes_of_step(const Summary& s, std::size_t particles) {
-  double sum = 0;
-  for (const KernelCost& k : costs)
-    for (const KernelTime& ran : s.kernels)
-      if (ran.name == k.name && k.often == every_step) sum += total(k.bytes, s, particles);
-  return sum;
+const KernelCost* cost_of(const std::string& kernel) {
+  const auto found = std::find_if(std::begin(costs), std::end(costs), [&](const KernelCost& k) { return kernel == k.name; });
+  return found == std::end(costs) ? nullptr : found;
 }
 
-Roofline roofline(const Summary& s, std::size_t particles, double working_set, const Limits& limits) {
-  Roofline r{s.threads, limits.bandwidth, limits.flops, limits.roots, working_set, {}};
+}  // namespace
+
+double largest_working_set(const Summary& s, std::size_t particles) {
+  double most = 0;
+  for (const KernelTime& ran : s.kernels)
+    if (const KernelCost* cost = cost_of(ran.name)) most = std::max(most, total(cost->bytes, s, particles));
+  return most;
+}
+
+Roofline roofline(const Summary& s, std::size_t particles, const Limits& limits) {
+  Roofline r{s.threads, limits, {}};
   for (const KernelTime& ran : s.kernels) {
-    const auto cost = std::find_if(std::begin(costs), std::end(costs), [&](const KernelCost& k) { return ran.name == k.name; });
-    if (cost == std::end(costs)) continue;             // not counted: nothing to compare with
-    const double often = per_step(*cost, s);
-    KernelBound b{ran.name, often * total(cost->bytes, s, particles), often * total(cost->flops, s, particles),
-                  often * total(cost->roots, s, particles)};
-    b.memory_seconds = b.bytes / limits.bandwidth;
-    b.arithmetic_seconds = b.flops / limits.flops + b.roots / limits.roots;   // divisions hardly overlap with each other
+    const KernelCost* cost = cost_of(ran.name);
+    if (!cost) continue;                               // not counted: nothing to compare with
+    const double often = per_step(*cost, s), bytes = total(cost->bytes, s, particles);
+    KernelBound b{ran.name, often * bytes, often * total(cost->flops, s, particles), often * total(cost->roots, s, particles)};
+    // As if the caches held nothing but this kernel's columns: a bound that no order of the kernels can beat.
+    b.memory_seconds = b.bytes / limits.bandwidth_for(bytes);
+    b.arithmetic_seconds = b.flops / limits.flops + b.roots / limits.roots;
     b.measured_seconds = ran.total;
     r.kernels.push_back(b);
   }

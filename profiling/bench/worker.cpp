@@ -90,9 +90,9 @@ class Runner {
     w.candidates = double(std::get<Contacts>(sim_->world()).rows());
     w.wall_candidates = double(std::get<BodyContacts>(sim_->world()).rows());
     for (const Timeline::Line& l : after.lines) {
-      const auto old = std::find_if(before.lines.begin(), before.lines.end(), [&](const Timeline::Line& b) { return b.name == l.name; });
-      if (l.writer) continue;
-      w.kernels.push_back({l.name, l.total - (old == before.lines.end() ? 0 : old->total), l.busy - (old == before.lines.end() ? 0 : old->busy)});
+      const auto same = std::find_if(before.lines.begin(), before.lines.end(), [&](const Timeline::Line& b) { return b.name == l.name; });
+      const Timeline::Line old = same == before.lines.end() ? Timeline::Line{} : *same;
+      if (!l.writer && l.count > old.count) w.kernels.push_back({l.name, l.total - old.total, l.busy - old.busy});
     }
     return w;
   }
