@@ -114,9 +114,9 @@ std::string text_of(const SceneResult& r, bool all_kernels) {
   const Summary& first = by_threads.front();
 
   std::string out = fmt::format("\n{}: {} particles, {}\n", r.name, count(n), r.what);
-  out += fmt::format("  a particle has {} contacts with others, {} with walls, {} and {} candidates; {}\n",
-                     digits(coordination(first, n)), digits(first.wall_contacts / double(n)), digits(first.candidates / double(n)),
-                     digits(first.wall_candidates / double(n)),
+  const auto each = [&](double sum) { return digits(sum / double(n)); };
+  out += fmt::format("  {} contacts a particle ({} of {} listed pairs), {} of {} at walls; {}\n", digits(coordination(first, n)),
+                     each(first.pairs), each(first.candidates), each(first.wall_contacts), each(first.wall_candidates),
                      first.searches ? "a search every " + digits(double(first.steps) / double(first.searches)) + " steps"
                                     : fmt::format("no search in {} steps", first.steps));
   std::string head = fmt::format("  {:>7}  {:<21}{:>9}{:>12}  {:<20}", "threads", " rate, " + r.executions.front(), "us/step", "ns/contact", " efficiency");

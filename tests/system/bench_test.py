@@ -54,7 +54,7 @@ def case_from_nothing(program):
 
 def case_text_and_csv(program):
     done = program(*QUICK, "--scene", "bed-1k", "--csv", "rows.csv", "-v")
-    contains(done.stdout, ["bed-1k: 1\u00a0000 particles", "contacts with others", "us/step", "efficiency", "serial", "state hash", "kernel"])
+    contains(done.stdout, ["bed-1k: 1\u00a0000 particles", "contacts a particle", "us/step", "efficiency", "serial", "state hash", "kernel"])
     assert max(map(len, done.stdout.splitlines())) <= 110, done.stdout
     rows = list(csv.DictReader(io.StringIO(read("rows.csv"))))
     assert [(r["threads"], r["execution"]) for r in rows] == [(n, e) for n in "12" for e in ("graph", "list", "serial")]
