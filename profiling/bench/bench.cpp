@@ -40,13 +40,6 @@ std::function<Scene()> reader_of(const BenchOptions& o, const std::string& name)
   return [=, options = read_options(o)] { return read_scene(name, options); };
 }
 
-void check_hashes(const SceneResult& r, std::string Process::* hash, std::int64_t steps) {
-  for (const Process& p : r.processes)
-    if (p.*hash != r.processes.front().*hash)
-      throw NumericalFailure(fmt::format("{}: the state after {} steps depends on the number of threads: hash {} with {}, {} with {}", r.name,
-                                         steps, r.processes.front().*hash, r.processes.front().threads, p.*hash, p.threads));
-}
-
 // Steps that take about a second with the fewest threads.
 std::int64_t steps_of_window(const BenchOptions& o, double step_seconds) {
   constexpr double duration = 1;             // [s]
@@ -96,7 +89,7 @@ SceneResult time_scene(const BenchOptions& o, const std::string& name, const Int
     if (w == workers.front()) r.steps = steps_of_window(o, step_seconds);
     r.processes.push_back(w->process());
   }
-  check_hashes(r, &Process::hash, o.warm_up);
+  check_agreement(r, &Process::hash, o.warm_up);
 
   Waiting waiting(name, o.repeats);
   for (std::int64_t k = 0; k < o.repeats; waiting.show(++k))
@@ -110,7 +103,7 @@ SceneResult time_scene(const BenchOptions& o, const std::string& name, const Int
     w->finish();
     r.processes.push_back(w->process());
   }
-  check_hashes(r, &Process::last_hash, o.warm_up + std::int64_t(r.windows.size() / workers.size()) * r.steps);
+  check_agreement(r, &Process::last_hash, o.warm_up + std::int64_t(r.windows.size() / workers.size()) * r.steps);
   r.load_after = load_average();
   workers.clear();
   if (o.roofline) add_rooflines(r, interrupt);

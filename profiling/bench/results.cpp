@@ -1,6 +1,8 @@
 #include "profiling/bench/results.h"
 #include <algorithm>
 #include <array>
+#include <fmt/format.h>
+#include "scenes/errors.h"
 
 namespace skred {
 
@@ -30,6 +32,14 @@ std::optional<Execution> execution_of(const std::string& name) {
   for (const auto& [n, e] : executions)
     if (name == n) return e;
   return {};
+}
+
+void check_agreement(const SceneResult& r, std::string Process::* hash, std::int64_t steps) {
+  const Process& first = r.processes.front();
+  for (const Process& p : r.processes)
+    if (p.*hash != first.*hash)
+      throw NumericalFailure(fmt::format("{}: the state after {} steps depends on the number of threads: hash {} with {}, {} with {}", r.name,
+                                         steps, first.*hash, first.threads, p.*hash, p.threads));
 }
 
 Summary summarize(const SceneResult& r, int threads, const std::string& execution) {

@@ -61,6 +61,9 @@ struct SceneResult {
   std::size_t particles() const { return processes.empty() ? 0 : processes.front().particles; }
 };
 
+// Throws NumericalFailure if the processes differ in this hash of the state after so many steps.
+void check_agreement(const SceneResult&, std::string Process::* hash, std::int64_t steps);
+
 // Rates of a scene with some threads and an execution. Windows with frames are left out.
 struct Summary {
   int threads = 1;

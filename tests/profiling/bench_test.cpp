@@ -95,6 +95,14 @@ TEST(BenchSummary, AFrameCostsWhatItsWindowTakesLonger) {
   EXPECT_EQ(summarize(r, 1, "graph").windows, 3u);
 }
 
+TEST(BenchSummary, AStateThatDependsOnTheThreadsIsAFailure) {
+  SceneResult r = drifting();
+  r.processes[0].hash = r.processes[1].hash = "0123456789abcdef";
+  EXPECT_NO_THROW(check_agreement(r, &Process::hash, 100));
+  r.processes[1].hash = "0123456789abcdee";
+  EXPECT_THROW(check_agreement(r, &Process::hash, 100), NumericalFailure);
+}
+
 TEST(BenchReport, RowsHaveTheColumnsOfTheHead) {
   const std::string csv = csv_of({}, {drifting()});
   const auto commas = [&](std::size_t from, std::size_t to) { return std::count(csv.begin() + std::ptrdiff_t(from), csv.begin() + std::ptrdiff_t(to), ','); };
