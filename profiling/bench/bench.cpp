@@ -119,7 +119,9 @@ void check_scenes(const BenchOptions& o) {
     if (find_bench_scene(name)) continue;
     std::error_code ignored;
     if (std::filesystem::exists(name, ignored)) read_scene(name, read_options(o));     // its errors now, not in minutes
-    else throw UsageError(fmt::format("--scene: '{}' is neither a scene of the benchmark nor a file{}", name, suggestion(name, names)));
+    else
+      throw UsageError(
+          fmt::format("--scene: '{}' is neither a scene of the benchmark nor a file{}", name, suggestion(name, names)));
   }
 }
 

@@ -25,9 +25,15 @@ BenchScene bed(const std::string& name, std::size_t nx, std::size_t ny, std::siz
 }
 
 BenchScene tiled_bed(const std::string& name, std::size_t tiles_x, std::size_t tiles_y) {
-  return {.name = name, .what = std::to_string(tiles_x) + " x " + std::to_string(tiles_y) + " tiles of bed-32k",
-          .file = "profiling/bench/scenes/bed.yaml", .particles = 32000 * tiles_x * tiles_y,
-          .settings = bed_size(40 * tiles_x, 40 * tiles_y), .tile = "bed-32k", .tiles_x = tiles_x, .tiles_y = tiles_y, .by_default = false};
+  return {.name = name,
+          .what = std::to_string(tiles_x) + " x " + std::to_string(tiles_y) + " tiles of bed-32k",
+          .file = "profiling/bench/scenes/bed.yaml",
+          .particles = 32000 * tiles_x * tiles_y,
+          .settings = bed_size(40 * tiles_x, 40 * tiles_y),
+          .tile = "bed-32k",
+          .tiles_x = tiles_x,
+          .tiles_y = tiles_y,
+          .by_default = false};
 }
 
 Scene read(const BenchScene& s, BenchScene::Settings settings, const BenchScene::Settings& more) {

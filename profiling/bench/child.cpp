@@ -76,7 +76,8 @@ std::string receive_line(int socket, const std::function<bool()>& stop) {
 
 Child::Child(const std::function<Answer()>& start, const InterruptGuard& interrupt) : interrupt_(interrupt) {
   int ends[2];
-  if (::socketpair(AF_UNIX, SOCK_STREAM, 0, ends) != 0) throw IoError(std::string("cannot start a process: ") + std::strerror(errno));
+  if (::socketpair(AF_UNIX, SOCK_STREAM, 0, ends) != 0)
+    throw IoError(std::string("cannot start a process: ") + std::strerror(errno));
   std::fflush(nullptr);
   process_ = ::fork();
   if (process_ == 0) {

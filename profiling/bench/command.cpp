@@ -70,17 +70,26 @@ CLI::App* BenchCommand::add_to(CLI::App& program) {
   for (const BenchScene& s : bench_scenes()) names += s.name + "|";
   verb->add_option("--scene", scenes_, "scenes by name, or scene files, separated by commas (default: all but the two largest)")
       ->type_name(names + "all|FILE");
-  verb->add_option("--threads", threads_, fmt::format("thread counts: 1 .. {} or auto, separated by commas", most_threads))->capture_default_str();
-  verb->add_option("--execution", executions_, "what runs a step: graph, list, serial, separated by commas")->capture_default_str();
-  verb->add_option("--warm-up", options_.warm_up, "steps before the first window")->check(CLI::Range(1, 1000000))->capture_default_str();
-  verb->add_option("--repeats", options_.repeats, "windows to time with every thread count")->check(CLI::Range(1, 10000))->capture_default_str();
-  verb->add_option("--steps", options_.steps, "steps of a window (default: about a second of them)")->check(CLI::Range(1, 100000000));
+  verb->add_option("--threads", threads_, fmt::format("thread counts: 1 .. {} or auto, separated by commas", most_threads))
+      ->capture_default_str();
+  verb->add_option("--execution", executions_, "what runs a step: graph, list, serial, separated by commas")
+      ->capture_default_str();
+  verb->add_option("--warm-up", options_.warm_up, "steps before the first window")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  verb->add_option("--repeats", options_.repeats, "windows to time with every thread count")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  verb->add_option("--steps", options_.steps, "steps of a window (default: about a second of them)")
+      ->check(CLI::Range(1, 100000000));
   verb->add_option("--method", options_.method, "sdem (smooth) or ndem (nonsmooth)")->check(CLI::IsMember({"sdem", "ndem"}));
   verb->add_option("--states", states_, "folder of the settled states (default: ~/.cache/skred/bench)")->type_name("DIR");
   verb->add_flag("--frames", options_.frames, "time windows with a frame too: what does writing cost?");
   verb->add_flag("--roofline", options_.roofline, "compare each kernel with what memory and arithmetic allow");
-  verb->add_option("--json", json_, "write everything that was measured, - for standard output, which then holds nothing else")->type_name("FILE");
-  verb->add_option("--csv", csv_, "write a row per scene, thread count and way of execution, - for standard output")->type_name("FILE");
+  verb->add_option("--json", json_, "write everything that was measured, - for standard output, which then holds nothing else")
+      ->type_name("FILE");
+  verb->add_option("--csv", csv_, "write a row per scene, thread count and way of execution, - for standard output")
+      ->type_name("FILE");
   verb->add_flag("--list", list_, "list the scenes and end");
   verb->add_flag("--settle-only", settle_only_, "make the settled states that are not there, and end");
   verb->add_flag("-v,--verbose", verbose_, "a table of all kernels per scene");
@@ -123,7 +132,8 @@ int BenchCommand::time() {
       if (text) print(text_of(r, verbose_));
     });
   } catch (const Interrupted&) {
-    std::fprintf(stderr, "\nskred: interrupted; %s\n", results.empty() ? "nothing was timed to its end" : "scenes timed to their end are kept");
+    std::fprintf(stderr, "\nskred: interrupted; %s\n",
+                 results.empty() ? "nothing was timed to its end" : "scenes timed to their end are kept");
     code = exit_interrupted;
     if (settle_only_) return code;
   }

@@ -93,9 +93,10 @@ double Limits::bandwidth_for(double bytes) const {
 }
 
 Limits measure_limits(int threads, double largest) {
-  constexpr double least = 1 << 18, most = 1 << 30;        // [byte] fits into a core's own cache; does not take the machine's memory
+  constexpr double least = 1 << 18, most = 1 << 30;  // [byte] fits into a core's own cache; does not take the machine's memory
   Limits best;
-  for (double bytes = std::clamp(largest, least, most); bytes >= least; bytes /= 4) best.bandwidth.insert(best.bandwidth.begin(), {bytes, 0});
+  for (double bytes = std::clamp(largest, least, most); bytes >= least; bytes /= 4)
+    best.bandwidth.insert(best.bandwidth.begin(), {bytes, 0});
   for (int k = 0; k < 3; ++k) {                            // the best of three: what disturbs only slows down
     for (Bandwidth& b : best.bandwidth) b.rate = std::max(b.rate, triad(threads, b.bytes));
     best.flops = std::max(best.flops, 2.0 * chains * rounds * calls_per_second(threads, wide ? flops_avx2 : flops_baseline));

@@ -23,7 +23,9 @@ std::string thread_text(int n) { return fmt::format("{} thread{}", n, n == 1 ? "
 std::size_t width(const std::string& s) {             // UTF-8
   return std::size_t(std::count_if(s.begin(), s.end(), [](unsigned char c) { return (c & 0xc0) != 0x80; }));
 }
-std::string right(const std::string& s, std::size_t columns) { return std::string(columns - std::min(columns, width(s)), ' ') + s; }
+std::string right(const std::string& s, std::size_t columns) {
+  return std::string(columns - std::min(columns, width(s)), ' ') + s;
+}
 
 double busy(const Summary& s) {
   double sum = 0;
@@ -72,21 +74,22 @@ std::string kernel_table(const SceneResult& r, const std::vector<Summary>& by_th
 }
 
 std::string roofline_table(const Roofline& f) {
-  std::string out = fmt::format("  at best with {}: {} G additions and multiplications/s, {} G divisions and roots/s,\n   ", thread_text(f.threads),
-                                digits(f.limits.flops * 1e-9), digits(f.limits.roots * 1e-9));
+  std::string out = fmt::format("  at best with {}: {} G additions and multiplications/s, {} G divisions and roots/s,\n   ",
+                                thread_text(f.threads), digits(f.limits.flops * 1e-9), digits(f.limits.roots * 1e-9));
   for (const Bandwidth& b : f.limits.bandwidth)
-    out += fmt::format("{} {} GB/s in {} MB", &b == &f.limits.bandwidth.front() ? "" : ",", digits(b.rate * 1e-9), digits(b.bytes * 1e-6));
-  out += fmt::format("\n  {:<38}{:>9}{:>9}{:>12}{:>12}{:>11}{:>7}  {}\n", "kernel", "MB/step", "Mop/step", "memory us", "compute us", "measured",
-                     "ratio", "bound");
+    out += fmt::format("{} {} GB/s in {} MB", &b == &f.limits.bandwidth.front() ? "" : ",", digits(b.rate * 1e-9),
+                       digits(b.bytes * 1e-6));
+  out += fmt::format("\n  {:<38}{:>9}{:>9}{:>12}{:>12}{:>11}{:>7}  {}\n", "kernel", "MB/step", "Mop/step", "memory us",
+                     "compute us", "measured", "ratio", "bound");
   double step = 0;
   for (const KernelBound& k : f.kernels) step += k.measured_seconds;
   for (const KernelBound& k : f.kernels) {
     if (k.measured_seconds < 0.005 * step) continue;  // half a per cent of the time is not worth a line
     const double least = std::max(k.memory_seconds, k.arithmetic_seconds);
-    out += fmt::format("  {:<38}{:>9}{:>9}{:>12}{:>12}{:>11}{:>7}  {}\n", k.name, digits(k.bytes * 1e-6), digits((k.flops + k.roots) * 1e-6),
-                       digits(1e6 * k.memory_seconds), digits(1e6 * k.arithmetic_seconds), digits(1e6 * k.measured_seconds),
-                       least > 0 ? digits(k.measured_seconds / least) : "-",
-                       least == 0 ? "-" : k.memory_seconds > k.arithmetic_seconds ? "memory" : "arithmetic");
+    out += fmt::format("  {:<38}{:>9}{:>9}{:>12}{:>12}{:>11}{:>7}  {}\n", k.name, digits(k.bytes * 1e-6),
+                       digits((k.flops + k.roots) * 1e-6), digits(1e6 * k.memory_seconds), digits(1e6 * k.arithmetic_seconds),
+                       digits(1e6 * k.measured_seconds), least > 0 ? digits(k.measured_seconds / least) : "-",
+                       k.memory_seconds > k.arithmetic_seconds ? "memory" : "arithmetic");
   }
   return out;
 }
@@ -94,17 +97,19 @@ std::string roofline_table(const Roofline& f) {
 }  // namespace
 
 BenchMachine bench_machine() {
-  return {processor_name(), compiler_name(), compiler_flags(), build_type(), vector_path(), "skred " SKRED_VERSION, source_commit(),
-          automatic_threads().threads, program_start_seconds()};
+  return {processor_name(),       compiler_name(),        compiler_flags(), build_type(),
+          vector_path(),          "skred " SKRED_VERSION, source_commit(),  automatic_threads().threads,
+          program_start_seconds()};
 }
 
 std::string text_head(const BenchMachine& m, const BenchOptions& o) {
   const std::string commit = m.commit.empty() ? "" : " (" + m.commit + ")";
-  const std::string window = o.steps ? fmt::format("{} steps", o.steps) : "about 1 s";
-  return fmt::format("{}{}, smooth DEM; {}, {}; load average {:.2f}\n{}, {}; {}; vector path: {}\n"
-                     "median (least - most) of {} windows of {}; rates in million particle-steps per second\n",
-                     m.version, commit, m.processor, m.processors == 1 ? "1 processor" : fmt::format("{} processors", m.processors),
-                     load_average(), m.compiler, m.build, m.flags, m.vectors, o.repeats, window);
+  const std::string window = o.steps ? fmt::format("{} steps", o.steps) : "about 1 s, at least 20 steps";
+  return fmt::format(
+      "{}{}, smooth DEM; {}, {}; load average {:.2f}\n{}, {}; {}; vector path: {}\n"
+      "median (least - most) of {} windows of {}; rates in million particle-steps per second\n",
+      m.version, commit, m.processor, m.processors == 1 ? "1 processor" : fmt::format("{} processors", m.processors),
+      load_average(), m.compiler, m.build, m.flags, m.vectors, o.repeats, window);
 }
 
 std::string text_of(const SceneResult& r, bool all_kernels) {
@@ -119,7 +124,8 @@ std::string text_of(const SceneResult& r, bool all_kernels) {
                      each(first.pairs), each(first.candidates), each(first.wall_contacts), each(first.wall_candidates),
                      first.searches ? "a search every " + digits(double(first.steps) / double(first.searches)) + " steps"
                                     : fmt::format("no search in {} steps", first.steps));
-  std::string head = fmt::format("  {:>7}  {:<21}{:>9}{:>12}  {:<20}", "threads", " rate, " + r.executions.front(), "us/step", "ns/contact", " efficiency");
+  std::string head = fmt::format("  {:>7}  {:<21}{:>9}{:>12}  {:<20}", "threads", " rate, " + r.executions.front(), "us/step",
+                                 "ns/contact", " efficiency");
   for (std::size_t e = 1; e < r.executions.size(); ++e) head += fmt::format("{:>8}", r.executions[e]);
   out += head + fmt::format("{:>15}\n", "byte/particle");
   for (std::size_t k = 0; k < by_threads.size(); ++k) {
@@ -136,8 +142,8 @@ std::string text_of(const SceneResult& r, bool all_kernels) {
   }
   out += all_kernels ? kernel_table(r, by_threads) : main_shares(first);
   for (const FrameCost& c : frame_costs(r))
-    out += fmt::format("  a frame adds {} ms with {}: {:.2f} % of 1000 steps\n", with_spread(c.seconds, 1e3), thread_text(c.threads),
-                       100 * c.share_of_1000_steps);
+    out += fmt::format("  a frame adds {} ms with {}: {:.2f} % of 1000 steps\n", with_spread(c.seconds, 1e3),
+                       thread_text(c.threads), 100 * c.share_of_1000_steps);
   for (const Roofline& f : r.rooflines) out += roofline_table(f);
   const Process& p = r.processes.front();
   out += fmt::format("  first step done {} after the start ({} of it reading); state hash {} after {} steps\n",

@@ -38,8 +38,9 @@ void check_agreement(const SceneResult& r, std::string Process::* hash, std::int
   const Process& first = r.processes.front();
   for (const Process& p : r.processes)
     if (p.*hash != first.*hash)
-      throw NumericalFailure(fmt::format("{}: the state after {} steps depends on the number of threads: hash {} with {}, {} with {}", r.name,
-                                         steps, first.*hash, first.threads, p.*hash, p.threads));
+      throw NumericalFailure(
+          fmt::format("{}: the state after {} steps depends on the number of threads: hash {} with {}, {} with {}", r.name, steps,
+                      first.*hash, first.threads, p.*hash, p.threads));
 }
 
 Summary summarize(const SceneResult& r, int threads, const std::string& execution) {
@@ -59,7 +60,9 @@ Summary summarize(const SceneResult& r, int threads, const std::string& executio
       efficiencies.push_back(rates.back() * fewest / (threads * rate_of(*beside[k], r.particles())));
     s.steps += w.steps;
     s.searches += w.searches;
-    for (const auto& [to, from] : {std::pair{&s.pairs, w.pairs}, {&s.wall_contacts, w.wall_contacts}, {&s.candidates, w.candidates},
+    for (const auto& [to, from] : {std::pair{&s.pairs, w.pairs},
+                                   {&s.wall_contacts, w.wall_contacts},
+                                   {&s.candidates, w.candidates},
                                    {&s.wall_candidates, w.wall_candidates}})
       *to += from / double(windows.size());
     for (const KernelTime& k2 : w.kernels) {

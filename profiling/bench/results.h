@@ -39,7 +39,8 @@ struct Process {
 // Measured rates and what the kernels would need of them (profiling/bench/roofline.h).
 struct KernelBound {
   std::string name;
-  double bytes = 0, flops = 0, roots = 0;   // a step: to and from memory; additions and multiplications; divisions and square roots
+  double bytes = 0, flops = 0,
+         roots = 0;  // a step: to and from memory; additions and multiplications; divisions and square roots
   double memory_seconds = 0, arithmetic_seconds = 0, measured_seconds = 0;   // a step
 };
 struct Roofline {
@@ -73,7 +74,7 @@ struct Summary {
   Spread rate;                              // particle-steps per second
   Spread step_seconds;                      // of a step
   Spread contact_nanoseconds;               // of a step, over the contacts that touch
-  std::optional<Spread> efficiency;         // rate / (threads / fewest threads * rate of the window beside it with the fewest threads)
+  std::optional<Spread> efficiency;  // rate / (threads / fewest threads * rate of the window beside it with the fewest threads)
   double pairs = 0, wall_contacts = 0, candidates = 0, wall_candidates = 0;
   std::int64_t searches = 0;
   std::vector<KernelTime> kernels;          // [s] a step

@@ -21,20 +21,20 @@ struct KernelCost {
 //   flops   additions, subtractions, multiplications, comparisons that select; roots: divisions and square roots.
 // What touches costs its candidate's share too. Loops whose length depends on the packing are taken at 1.7 particles a cell.
 constexpr KernelCost costs[] = {
-    // name                                  when            bytes                          flops                        roots
-    {"integrate",                            every_step,   {.particle = 256},             {.particle = 48},            {.particle = 3}},
-    {"check_motion",                         every_step,   {.particle = 80},              {.particle = 20},            {}},
-    {"reorder",                              every_search, {.particle = 130},             {.particle = 7},             {.particle = 1}},
-    {"broadphase",                           every_search, {.particle = 136, .candidate = 48}, {.particle = 380},      {}},
-    {"contact_hashing",                      every_search, {.particle = 12, .candidate = 104}, {},                     {}},
-    {"broadphase_body",                      every_search, {.particle = 36, .wall = 20},  {.particle = 10},            {}},
-    {"contact_hashing_body",                 every_search, {.particle = 12, .wall = 168}, {},                          {}},
-    {"contact_geometry_body",                every_step,   {.particle = 4, .wall = 84},   {.wall = 60},                {.wall = 2}},
-    {"force_calculation_particle_particle",  every_step,   {.particle = 72, .candidate = 128, .touching = 48},
-                                                           {.candidate = 10, .touching = 176},                         {.touching = 12}},
-    {"force_calculation_particle_body",      every_step,   {.wall = 136, .wall_touching = 172}, {.wall_touching = 190}, {.wall_touching = 13}},
-    {"force_application_particle",           every_step,   {.particle = 316, .candidate = 100, .wall = 48},
-                                                           {.particle = 41, .candidate = 12, .wall = 6},               {.particle = 2}},
+    // name, when, bytes, flops, roots
+    {"integrate", every_step, {.particle = 256}, {.particle = 48}, {.particle = 3}},
+    {"check_motion", every_step, {.particle = 80}, {.particle = 20}, {}},
+    {"reorder", every_search, {.particle = 130}, {.particle = 7}, {.particle = 1}},
+    {"broadphase", every_search, {.particle = 136, .candidate = 48}, {.particle = 380}, {}},
+    {"contact_hashing", every_search, {.particle = 12, .candidate = 104}, {}, {}},
+    {"broadphase_body", every_search, {.particle = 36, .wall = 20}, {.particle = 10}, {}},
+    {"contact_hashing_body", every_search, {.particle = 12, .wall = 168}, {}, {}},
+    {"contact_geometry_body", every_step, {.particle = 4, .wall = 84}, {.wall = 60}, {.wall = 2}},
+    {"force_calculation_particle_particle", every_step, {.particle = 72, .candidate = 128, .touching = 48},
+     {.candidate = 10, .touching = 176}, {.touching = 12}},
+    {"force_calculation_particle_body", every_step, {.wall = 136, .wall_touching = 172}, {.wall_touching = 190}, {.wall_touching = 13}},
+    {"force_application_particle", every_step, {.particle = 316, .candidate = 100, .wall = 48},
+     {.particle = 41, .candidate = 12, .wall = 6}, {.particle = 2}},
 };
 
 double total(const Counts& c, const Summary& s, std::size_t particles) {

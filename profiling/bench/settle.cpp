@@ -34,7 +34,8 @@ void run(const BenchScene& s, const Scene& scene, const fs::path& to, int thread
   Prepared prepared = prepare(scene, false);
   Simulation sim(std::move(prepared.world), std::move(prepared.model), threads);
   const double end_time = double(s.settling_steps) * sim.model().time_step;
-  Progress progress(end_time, s.particles, false, [&](const std::string& line) { std::fprintf(stderr, "%s: %s\n", s.name.c_str(), line.c_str()); });
+  Progress progress(end_time, s.particles, false,
+                    [&](const std::string& line) { std::fprintf(stderr, "%s: %s\n", s.name.c_str(), line.c_str()); });
   sim.start();
   while (sim.steps_done() < s.settling_steps) {
     sim.step();
@@ -50,7 +51,10 @@ void run(const BenchScene& s, const Scene& scene, const fs::path& to, int thread
 void tile(const BenchScene& s, const fs::path& from, const fs::path& to) {
   const State one = read_state(from);
   const double side = 40 * spawn_spacing(pellet_radius);     // of bed-32k
-  State all{.scene = s.name, .steps = one.steps, .time_step = one.time_step, .position = tiled(one.position, side, side, s.tiles_x, s.tiles_y)};
+  State all{.scene = s.name,
+            .steps = one.steps,
+            .time_step = one.time_step,
+            .position = tiled(one.position, side, side, s.tiles_x, s.tiles_y)};
   for (std::size_t k = 0; k < s.tiles_x * s.tiles_y; ++k) {
     all.velocity.insert(all.velocity.end(), one.velocity.begin(), one.velocity.end());
     all.angular_velocity.insert(all.angular_velocity.end(), one.angular_velocity.begin(), one.angular_velocity.end());
@@ -72,7 +76,8 @@ void ensure_state(const BenchScene& s, const fs::path& states, int threads, cons
     return in_child([&] { tile(s, state_file(states, one), to); }, interrupt);
   }
   std::fprintf(stderr, "settling %s, once: %s particles, %lld steps on %d thread%s\n", s.name.c_str(),
-               grouped_digits(std::int64_t(s.particles)).c_str(), static_cast<long long>(s.settling_steps), threads, threads == 1 ? "" : "s");
+               grouped_digits(std::int64_t(s.particles)).c_str(), static_cast<long long>(s.settling_steps), threads,
+               threads == 1 ? "" : "s");
   const Removed start{states / fmt::format("{}-start-{}.h5", s.name, getpid())};
   in_child([&] {
     if (s.spawn) write_start(s, start.path);

@@ -49,7 +49,8 @@ State read_state(const fs::path& path) {
           .angular_velocity = read_vectors(file, "angular_velocity"), .radius = file.read_doubles("radius")};
   s.scene = file.text_attribute("/", "scene").value_or("");
   s.steps = file.integer_attribute("/", "steps").value_or(0);
-  if (s.velocity.size() != s.position.size() || s.angular_velocity.size() != s.position.size() || s.radius.size() != s.position.size())
+  if (s.velocity.size() != s.position.size() || s.angular_velocity.size() != s.position.size() ||
+      s.radius.size() != s.position.size())
     throw IoError(path.string() + ": its columns differ in length; remove the file, and it is made anew");
   return s;
 }

@@ -13,8 +13,8 @@ void check_sound(const Simulation& sim, const std::string& scene) {
     case Trouble::too_fast: what = "it moves more than half its radius in one step"; break;
     case Trouble::out_of_bounds: what = "it left the bounds of the scene"; break;
   }
-  throw NumericalFailure(fmt::format("{}, step {}, particle {}: {}; `skred run` of the same scene tells more", scene, sim.steps_done(),
-                                     s.culprit.data[0], what));
+  throw NumericalFailure(fmt::format("{}, step {}, particle {}: {}; `skred run` of the same scene tells more", scene,
+                                     sim.steps_done(), s.culprit.data[0], what));
 }
 
 }  // namespace skred

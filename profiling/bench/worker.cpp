@@ -14,8 +14,8 @@ using nlohmann::json;
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(KernelTime, name, total, busy)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Window, threads, execution, frame, steps, searches, seconds, pairs, wall_contacts, candidates,
                                    wall_candidates, kernels)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Process, threads, particles, read_seconds, first_step_seconds, memory_before, memory, peak_memory,
-                                   hash, last_hash)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Process, threads, particles, read_seconds, first_step_seconds, memory_before, memory,
+                                   peak_memory, hash, last_hash)
 
 namespace {
 
@@ -90,7 +90,8 @@ class Runner {
     w.candidates = double(std::get<Contacts>(sim_->world()).rows());
     w.wall_candidates = double(std::get<BodyContacts>(sim_->world()).rows());
     for (const Timeline::Line& l : after.lines) {
-      const auto same = std::find_if(before.lines.begin(), before.lines.end(), [&](const Timeline::Line& b) { return b.name == l.name; });
+      const auto same =
+          std::find_if(before.lines.begin(), before.lines.end(), [&](const Timeline::Line& b) { return b.name == l.name; });
       const Timeline::Line old = same == before.lines.end() ? Timeline::Line{} : *same;
       if (!l.writer && l.count > old.count) w.kernels.push_back({l.name, l.total - old.total, l.busy - old.busy});
     }
@@ -136,7 +137,8 @@ class Runner {
 }  // namespace
 
 Worker::Worker(const WorkerJob& job, const InterruptGuard& interrupt)
-    : child_([&job] { return [runner = std::make_shared<Runner>(job)](const json& request) { return runner->answer(request); }; }, interrupt) {}
+    : child_([&job] { return [runner = std::make_shared<Runner>(job)](const json& request) { return runner->answer(request); }; },
+             interrupt) {}
 
 Process Worker::start() { return process_ = child_.ask({{"do", "start"}}).get<Process>(); }
 

@@ -105,7 +105,9 @@ TEST(BenchSummary, AStateThatDependsOnTheThreadsIsAFailure) {
 
 TEST(BenchReport, RowsHaveTheColumnsOfTheHead) {
   const std::string csv = csv_of({}, {drifting()});
-  const auto commas = [&](std::size_t from, std::size_t to) { return std::count(csv.begin() + std::ptrdiff_t(from), csv.begin() + std::ptrdiff_t(to), ','); };
+  const auto commas = [&](std::size_t from, std::size_t to) {
+    return std::count(csv.begin() + std::ptrdiff_t(from), csv.begin() + std::ptrdiff_t(to), ',');
+  };
   const std::size_t first = csv.find('\n'), second = csv.find('\n', first + 1);
   EXPECT_EQ(commas(0, first), commas(first, second));
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3);
@@ -113,7 +115,8 @@ TEST(BenchReport, RowsHaveTheColumnsOfTheHead) {
 
 TEST(BenchReport, TextFitsTheTerminal) {
   const std::string text = text_of(drifting(), true) + text_of(drifting(), false);
-  for (std::size_t at = 0, end; (end = text.find('\n', at)) != std::string::npos; at = end + 1) EXPECT_LE(end - at, 114u) << text.substr(at, end - at);
+  for (std::size_t at = 0, end; (end = text.find('\n', at)) != std::string::npos; at = end + 1)
+    EXPECT_LE(end - at, 114u) << text.substr(at, end - at);
   EXPECT_NE(text.find("3.80 contacts a particle (1.90 of 3.00 listed pairs)"), std::string::npos) << text;
 }
 
