@@ -2,6 +2,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <sys/resource.h>
+#include <unistd.h>
 
 namespace skred {
 
@@ -21,6 +22,11 @@ std::string compiler_name() {
 #endif
 }
 
+std::string compiler_flags() { return SKRED_COMPILER_FLAGS; }
+std::string build_type() { return SKRED_BUILD_TYPE; }
+std::string source_commit() { return SKRED_COMMIT; }
+std::string vector_path() { return "scalar"; }
+
 double load_average() {
   double load = -1;
   return getloadavg(&load, 1) == 1 ? load : -1;
@@ -30,6 +36,12 @@ double peak_memory() {
   rusage use{};
   getrusage(RUSAGE_SELF, &use);
   return 1024.0 * double(use.ru_maxrss);
+}
+
+double resident_memory() {
+  std::ifstream statm("/proc/self/statm");           // pages: all, resident, ...
+  double all = 0, resident = 0;
+  return statm >> all >> resident ? resident * double(sysconf(_SC_PAGESIZE)) : 0;
 }
 
 }  // namespace skred

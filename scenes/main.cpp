@@ -5,37 +5,20 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include "engine/io/io_error.h"
+#include "profiling/bench/command.h"
 #include "scenes/completion.h"
 #include "scenes/errors.h"
+#include "scenes/failure.h"
 #include "scenes/prepare.h"
 #include "scenes/read_scene.h"
 #include "scenes/run.h"
 #include "scenes/schema.h"
 #include "scenes/show.h"
-#include "tasks/simulation.h"
+#include "scenes/thread_option.h"
 
 namespace {
 
 using namespace skred;
-
-constexpr int most_threads = 1024;
-
-int parse_threads(const std::string& text, std::string& reason) {
-  if (text == "auto") {
-    const ThreadChoice c = automatic_threads();
-    reason = c.reason;
-    return c.threads;
-  }
-  std::size_t end = 0;
-  long n = 0;
-  try {
-    n = std::stol(text, &end);
-  } catch (const std::exception&) {
-  }
-  if (end != text.size() || n < 1 || n > most_threads)
-    throw UsageError(fmt::format("--threads: '{}' is not allowed: 1 .. {} or 'auto'", text, most_threads));
-  return static_cast<int>(n);
-}
 
 std::pair<std::int64_t, std::int64_t> parse_steps(const std::string& text) {
   long long a = 0, b = 0;
@@ -99,6 +82,9 @@ int run_program(int argc, char** argv) {
   on.add_to(*validate_verb);
   validate_verb->add_flag("--force", run.force, "accept a time step beyond the limit");
 
+  BenchCommand bench;
+  CLI::App* bench_verb = bench.add_to(app);
+
   CLI::App* schema_verb = app.add_subcommand("schema", "print the JSON Schema of scene files, for editors");
   CLI::App* models_verb = app.add_subcommand("models", "list the contact models with parameters, units and sources");
   CLI::App* explain_verb = app.add_subcommand("explain", "explain a key of scene files, e.g. materials.youngs_modulus");
@@ -120,6 +106,7 @@ int run_program(int argc, char** argv) {
     }
     return run_scene(on.scene(), run);
   }
+  if (*bench_verb) return bench.run();
   if (*graph_verb) {
     const Scene scene = on.scene();
     std::cout << (format == "text" ? graph_text(scene) : format == "dot" ? graph_dot(scene) : graph_svg(scene));
@@ -143,29 +130,12 @@ int run_program(int argc, char** argv) {
 
 // Every failure with its message and exit code.
 int guarded(int argc, char** argv) {
-  const auto fail = [](int code, const char* what) {
-    std::fprintf(stderr, "skred: error: %s\n", what);
-    return code;
-  };
   try {
     return run_program(argc, argv);
-  } catch (const SceneError& e) {
-    std::fprintf(stderr, "%s\n", e.what());           // has its own places
-    return exit_scene;
-  } catch (const SceneRefused& e) {
-    return fail(exit_scene, e.what());
-  } catch (const NumericalFailure& e) {
-    return fail(exit_numerical, e.what());
-  } catch (const IoError& e) {
-    return fail(exit_io, e.what());
-  } catch (const UsageError& e) {
-    return fail(exit_usage, e.what());
-  } catch (const std::invalid_argument& e) {
-    return fail(exit_usage, e.what());
-  } catch (const std::bad_alloc&) {
-    return fail(exit_io, "out of memory: the scene is too large for this machine");
   } catch (const std::exception& e) {
-    return fail(exit_io, e.what());
+    const Failure f = failure_of(e);
+    std::fprintf(stderr, "%s\n", f.text.c_str());
+    return f.code;
   }
 }
 

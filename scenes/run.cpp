@@ -1,11 +1,8 @@
 #include "scenes/run.h"
 #include <algorithm>
 #include <chrono>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <spdlog/sinks/basic_file_sink.h>
@@ -203,15 +200,10 @@ bool advance(Run& r, const InterruptGuard& interrupt) {
   return true;
 }
 
-// Before the run rather than after it: may a file be written there? In the output folder it may. Throws IoError.
-void check_writable(const std::string& file, const std::filesystem::path& output) {
+// In the output folder files may be written.
+bool is_in(const std::string& file, const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
-  const fs::path path(file);
-  if (file.empty() || fs::absolute(path).parent_path().lexically_normal() == (fs::absolute(output) / "").lexically_normal().parent_path()) return;
-  std::error_code ignored;
-  const bool there = fs::exists(path, ignored);
-  if (!std::ofstream(path, std::ios::app)) throw IoError(fmt::format("{}: cannot be written: {}", file, std::strerror(errno)));
-  if (!there) fs::remove(path, ignored);
+  return fs::absolute(file).parent_path().lexically_normal() == (fs::absolute(folder) / "").lexically_normal().parent_path();
 }
 
 }  // namespace
@@ -219,7 +211,8 @@ void check_writable(const std::string& file, const std::filesystem::path& output
 int run_scene(const Scene& scene, const RunOptions& options) {
   const std::filesystem::path output = options.output.empty() ? OutputFolder::next_free("results/" + scene.name + "-sdem")
                                                               : std::filesystem::path(options.output);
-  for (const std::string& file : {options.trace, options.timeline, options.summary}) check_writable(file, output);
+  for (const std::string& file : {options.trace, options.timeline, options.summary})
+    if (!file.empty() && !is_in(file, output)) check_writable(file);   // before the run rather than after it
   Prepared prepared = prepare(scene, options.force);         // a scene that is refused leaves no folder, and an old one alone
   const OutputFolder folder(output, options.overwrite);
   const auto log_owner = make_log(folder, options);

@@ -18,7 +18,7 @@ case_help_and_version() {
   exits 0 --help
   silent
   local verb
-  for verb in run graph validate schema models explain completion; do
+  for verb in run bench graph validate schema models explain completion; do
     prints "  $verb "
     skred "$verb" --help
     exits 0 "$verb --help"

@@ -1,0 +1,79 @@
+#include "profiling/bench/roofline.h"
+#include <algorithm>
+
+namespace skred {
+
+namespace {
+
+// Per particle, candidate pair, touching pair, listed place at a wall, touching place at a wall.
+struct Counts { double particle = 0, candidate = 0, touching = 0, wall = 0, wall_touching = 0; };
+enum Often { every_step, every_search };
+
+struct KernelCost {
+  const char* name;
+  Often often;
+  Counts bytes, flops, roots;
+};
+
+// Counted by hand in kernels/*.h for a scene with friction, rolling resistance and equal particles:
+//   bytes   every column that the kernel's parameters name, once per row: read 1 x, written 1 x, updated 2 x its size (Vec3 24,
+//           double 8, Index 4). Columns of particles that contacts gather count once per particle: neighbours share cache lines.
+//   flops   additions, subtractions, multiplications, comparisons that select; roots: divisions and square roots.
+// What touches costs its candidate's share too. Loops whose length depends on the packing are taken at 1.7 particles a cell.
+constexpr KernelCost costs[] = {
+    // name, when, bytes, flops, roots
+    {"integrate", every_step, {.particle = 256}, {.particle = 48}, {.particle = 3}},
+    {"check_motion", every_step, {.particle = 80}, {.particle = 20}, {}},
+    {"reorder", every_search, {.particle = 130}, {.particle = 7}, {.particle = 1}},
+    {"broadphase", every_search, {.particle = 136, .candidate = 48}, {.particle = 380}, {}},
+    {"contact_hashing", every_search, {.particle = 12, .candidate = 104}, {}, {}},
+    {"broadphase_body", every_search, {.particle = 36, .wall = 20}, {.particle = 10}, {}},
+    {"contact_hashing_body", every_search, {.particle = 12, .wall = 168}, {}, {}},
+    {"contact_geometry_body", every_step, {.particle = 4, .wall = 84}, {.wall = 60}, {.wall = 2}},
+    {"force_calculation_particle_particle", every_step, {.particle = 72, .candidate = 128, .touching = 48},
+     {.candidate = 10, .touching = 176}, {.touching = 12}},
+    {"force_calculation_particle_body", every_step, {.wall = 136, .wall_touching = 172}, {.wall_touching = 190}, {.wall_touching = 13}},
+    {"force_application_particle", every_step, {.particle = 316, .candidate = 100, .wall = 48},
+     {.particle = 41, .candidate = 12, .wall = 6}, {.particle = 2}},
+};
+
+double total(const Counts& c, const Summary& s, std::size_t particles) {
+  return c.particle * double(particles) + c.candidate * s.candidates + c.touching * s.pairs + c.wall * s.wall_candidates +
+         c.wall_touching * s.wall_contacts;
+}
+
+double per_step(const KernelCost& k, const Summary& s) {
+  return k.often == every_step ? 1 : s.steps ? double(s.searches) / double(s.steps) : 0;
+}
+
+const KernelCost* cost_of(const std::string& kernel) {
+  const auto found = std::find_if(std::begin(costs), std::end(costs), [&](const KernelCost& k) { return kernel == k.name; });
+  return found == std::end(costs) ? nullptr : found;
+}
+
+}  // namespace
+
+double largest_working_set(const Summary& s, std::size_t particles) {
+  double most = 0;
+  for (const KernelTime& ran : s.kernels)
+    if (const KernelCost* cost = cost_of(ran.name)) most = std::max(most, total(cost->bytes, s, particles));
+  return most;
+}
+
+Roofline roofline(const Summary& s, std::size_t particles, const Limits& limits) {
+  Roofline r{s.threads, limits, {}};
+  for (const KernelTime& ran : s.kernels) {
+    const KernelCost* cost = cost_of(ran.name);
+    if (!cost) continue;                               // not counted: nothing to compare with
+    const double often = per_step(*cost, s), bytes = total(cost->bytes, s, particles);
+    KernelBound b{ran.name, often * bytes, often * total(cost->flops, s, particles), often * total(cost->roots, s, particles)};
+    // As if the caches held nothing but this kernel's columns: a bound that no order of the kernels can beat.
+    b.memory_seconds = b.bytes / limits.bandwidth_for(bytes);
+    b.arithmetic_seconds = b.flops / limits.flops + b.roots / limits.roots;
+    b.measured_seconds = ran.total;
+    r.kernels.push_back(b);
+  }
+  return r;
+}
+
+}  // namespace skred
