@@ -70,7 +70,7 @@ def state(n=1000):
 def compare(*options, code=0):
     done = subprocess.run([sys.executable, PEERS / "compare", "--skred", executable("skred", SKRED), "--liggghts", "", "--states", "states",
                            "--scenes", "bed-1k", "--processes", "1", "--repeats", "2", "--seconds", "0.1", "--folder", "work",
-                           "--json", "out.json", "--markdown", "out.md", *options], capture_output=True, text=True, check=False,
+                           "--json", "out.json", "--markdown", "out.md", "--quiet", "99", *options], capture_output=True, text=True, check=False,
                           env=os.environ | {"PEERS_INPUT": str(Path("input").absolute())})
     assert done.returncode == code, done.stdout + done.stderr
     return done
@@ -106,6 +106,19 @@ def case_bad_runs_are_told_and_left_out():
         assert len(told) == 2 and all(words in " ".join(problems) for problems in told), (words, told)
         text = Path("out.md").read_text()
         assert words in text and "| 8.00 (8.00-8.00) | failed |" in text, text
+
+
+def case_disturbed_runs_give_way():
+    import report
+    from codes import Result
+
+    def result(code, repeat, rate, others):
+        return Result(code, "drum", 2, repeat, rate=rate, contacts=4, others=others)
+
+    runs = [result("Skred", 0, 8, 0), result("Skred", 1, 1, 0.9), result("Skred", 2, 6, 0), result("LAMMPS", 0, 4, 0), result("LAMMPS", 1, 1, 0),
+            result("LAMMPS", 2, 1, 0.9), result("LIGGGHTS", 0, 2, 0.9)]
+    (row,) = report.summary(runs, quiet=0.2)
+    assert row["ratios"] == {"LAMMPS": (2, 2, 2), "LIGGGHTS": (4, 4, 4)} and row["codes"]["Skred"]["rate"] == (7, 6, 8), row
 
 
 def case_input_of_lammps():

@@ -68,7 +68,7 @@ def gravity(scene):
 
 
 def lammps_input(scene, data, settings, processes, steps):
-    pellet = ("hertz/material 6.1684e6 0.0538 0.25 tangential mindlin NULL 0.926 {} {}damping tsuji")
+    pellet = "hertz/material 6.1684e6 0.0538 0.25 tangential mindlin NULL 0.926 {} {}damping tsuji"
     rough = pellet.format("0.91", "rolling sds 4000.0 0.0 0.3211 ")
     smooth = pellet.format("0.0", "")
     split = {"drum": ("x", f"{processes} 1 1"), "column": ("z", f"1 1 {processes}"), "bed": ("", f"{processes} 1 1")}[scene.kind]
@@ -151,7 +151,8 @@ def read_log(text, scene, steps, result):
         result.problems.append(f"ran on {processes} processes")
     # The line before each loop's time has the last output of that run.
     rows = [text[: loops[k].start()].splitlines()[-1].split() for k in (1, 3)]
-    if [row[:1] for row in rows] != [[str(scene.warm_steps)], [str(scene.warm_steps + steps + 1)]] or any(len(row) != 4 for row in rows):
+    when = [str(scene.warm_steps), str(scene.warm_steps + steps + 1)]
+    if [len(row) for row in rows] != [4, 4] or [row[0] for row in rows] != when:
         result.problems.append(f"no measurements before and after, but {' '.join(rows[0])} | {' '.join(rows[1])}")
         return
     result.contacts = sum(float(row[2]) for row in rows) / 2

@@ -34,13 +34,17 @@ def range_text(values, form="{:.2f}"):
     return middle if len(values) == 1 else f"{middle} ({least}-{most})"
 
 
-def group(results):
-    """good[scene, processes][code][repeat] = result, of the runs without problems; in the order of first appearance."""
+def group(results, quiet):
+    """good[scene, processes][code][repeat] = result, of the runs without problems, in the order of first appearance. Runs that
+    other work disturbed are left out where there are undisturbed ones of the same kind."""
     good = defaultdict(lambda: defaultdict(dict))
     for r in results:
         runs = good[r.scene, r.processes][r.code]
         if not r.problems:
             runs[r.repeat] = r
+    for codes in good.values():
+        for code, runs in codes.items():
+            codes[code] = {k: r for k, r in runs.items() if r.others <= quiet} or runs
     return good
 
 
@@ -49,10 +53,10 @@ def ratios(numerator, denominator):
     return [numerator[k].rate / denominator[k].rate for k in sorted(numerator.keys() & denominator.keys())]
 
 
-def summary(results, skred="Skred"):
+def summary(results, quiet, skred="Skred"):
     """A dictionary per scene and process count: what the JSON file and the table show."""
     rows = []
-    for (scene, processes), codes in group(results).items():
+    for (scene, processes), codes in group(results, quiet).items():
         row = {"scene": scene, "processes": processes, "codes": {}, "ratios": {}}
         for code, runs in codes.items():
             rates, contacts = [r.rate for r in runs.values()], [r.contacts for r in runs.values()]
@@ -87,8 +91,8 @@ def contact_problems(results, skred="Skred"):
             r.problems.append(f"{r.contacts:.3f} contacts per particle, Skred has {wanted:.3f}")
 
 
-def markdown(results, trials, machine, versions, quiet_limit, skred="Skred"):
-    rows = summary(results, skred)
+def markdown(results, trials, machine, versions, quiet, skred="Skred"):
+    rows = summary(results, quiet, skred)
     codes = list(dict.fromkeys(r.code for r in results))
     peers = [code for code in codes if code != skred]
     out = [f"Machine: {machine['processor']}, {machine['processors']} processors, cache {machine['cache']}, "
@@ -99,14 +103,15 @@ def markdown(results, trials, machine, versions, quiet_limit, skred="Skred"):
     head = ["scene", "particles", "threads or processes", "steps", "contacts per particle: " + ", ".join(codes), *codes,
             *(f"Skred / {code}" for code in peers), "Skred / best peer"]
     out += ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
-    good = group(results)
+    good = group(results, quiet)
     for row in rows:
         runs = good[row["scene"], row["processes"]]
         entries = [row["codes"].get(code, {"runs": 0, "contacts": 0.0}) for code in codes]
         known = [e for e in entries if e["runs"]] or [{"particles": 0, "steps": 0}]
         cells = [row["scene"], str(known[0]["particles"]), str(row["processes"]), str(known[0]["steps"]),
                  ", ".join(f"{e['contacts']:.2f}" if e["runs"] else "-" for e in entries)]
-        cells += [range_text([r.rate / 1e6 for r in runs[code].values()]) if code in runs else "-" for code in codes]
+        cells += [range_text([r.rate / 1e6 for r in runs[code].values()]) + "*" * any(r.others > quiet for r in runs[code].values())
+                  if code in runs else "-" for code in codes]
         cells += [range_text(ratios(runs[skred], runs[code])) if runs.get(code) and runs.get(skred) else "-" for code in peers]
         best = row.get("best_peer")
         cells.append(f"**{range_text(ratios(runs[skred], runs[best]))}** {best}" if best and ratios(runs[skred], runs[best]) else "-")
@@ -124,11 +129,13 @@ def markdown(results, trials, machine, versions, quiet_limit, skred="Skred"):
     out += ["", "Other programs meanwhile: on average {:.2f} processors busy, {:.2f} at most in a run; load average {:.1f} to {:.1f} "
             "at the starts.".format(sum(r.others for r in results) / max(1, len(results)), max((r.others for r in results), default=0),
                                     min((r.load for r in results), default=0), max((r.load for r in results), default=0))]
-    disturbed = [r for r in results if r.others > quiet_limit]
+    disturbed = [r for r in results if r.others > quiet]
     if disturbed:
-        out.append(f"**{len(disturbed)} of {len(results)} runs were disturbed**: more than {quiet_limit} processors were busy with other work.")
+        used = sum(r.others > quiet for codes in good.values() for runs in codes.values() for r in runs.values())
+        out.append(f"**{len(disturbed)} of {len(results)} runs were disturbed**: more than {quiet} processors were busy with other work. "
+                   f"{used} of them are in the table, because no other run of that kind was made; they are marked with *.")
     bad = [r for r in [*results, *trials] if r.problems]
     if bad:
         out += ["", "Runs that failed or do not compare; none of them is in the tables:", ""]
-        out += [f"- {r.scene}, {r.code}, {r.processes}, repeat {r.repeat + 1}: {'; '.join(r.problems)}" for r in bad]
+        out += [f"- {r.scene}, {r.code}, {r.processes}, {f'repeat {r.repeat + 1}' if r.repeat >= 0 else 'tried before'}: {'; '.join(r.problems)}" for r in bad]
     return "\n".join([*out, "", DIFFERENCES, ""])
