@@ -110,11 +110,17 @@ def markdown(results, trials, machine, versions, quiet, skred="Skred"):
         known = [e for e in entries if e["runs"]] or [{"particles": 0, "steps": 0}]
         cells = [row["scene"], str(known[0]["particles"]), str(row["processes"]), str(known[0]["steps"]),
                  ", ".join(f"{e['contacts']:.2f}" if e["runs"] else "-" for e in entries)]
-        cells += [range_text([r.rate / 1e6 for r in runs[code].values()]) + "*" * any(r.others > quiet for r in runs[code].values())
-                  if code in runs else "-" for code in codes]
-        cells += [range_text(ratios(runs[skred], runs[code])) if runs.get(code) and runs.get(skred) else "-" for code in peers]
+        def star(*some):
+            return "*" * any(r.others > quiet for code in some for r in runs[code].values())
+
+        def ratio(code):
+            found = ratios(runs[skred], runs[code]) if runs.get(code) and runs.get(skred) else []
+            return range_text(found) + star(skred, code) if found else "-"
+
+        cells += [range_text([r.rate / 1e6 for r in runs[code].values()]) + star(code) if code in runs else "-" for code in codes]
+        cells += [ratio(code) for code in peers]
         best = row.get("best_peer")
-        cells.append(f"**{range_text(ratios(runs[skred], runs[best]))}** {best}" if best and ratios(runs[skred], runs[best]) else "-")
+        cells.append(f"**{ratio(best)}** {best}" if best else "-")
         out.append("| " + " | ".join(cells) + " |")
     out += ["", "Settings, searches within the timed steps, peak memory of the largest process:", "",
             "| scene | threads or processes | code | settings | timed | searches | MB |", "|---|---|---|---|---|---|---|"]
