@@ -9,7 +9,6 @@ namespace {
 // A neighbour, sorted by id: the id in the upper half, the row in the lower.
 using Key = std::uint64_t;
 Key key(Index id, Index row) { return Key{id} << 32 | row; }
-Index id_of(Key k) { return static_cast<Index>(k >> 32); }
 Index row_of(Key k) { return static_cast<Index>(k); }
 
 // Most lists hold less than ten keys.
@@ -27,10 +26,10 @@ void sort_short(Key* first, Key* last) {
 void sort_into_cells(const Parallel& parallel, const CellLayout& layout, std::span<const Vec3> position, std::span<const double> radius,
                      std::span<const double> margin, CellGrid& grid) {
   const std::size_t n = position.size();
-  grid.cell.data.resize(n);
-  grid.order.data.resize(n);
-  grid.position.data.resize(n);
-  grid.reach.data.resize(n);
+  resize_for_overwrite(grid.cell.data, n);
+  resize_for_overwrite(grid.order.data, n);
+  resize_for_overwrite(grid.position.data, n);
+  resize_for_overwrite(grid.reach.data, n);
   parallel(n, 8192, [&](std::size_t first, std::size_t last) {
     for (std::size_t p = first; p < last; ++p) grid.cell.data[p] = static_cast<Index>(layout.cell(position[p]));
   });
@@ -51,7 +50,7 @@ void sort_into_cells(const Parallel& parallel, const CellLayout& layout, std::sp
 
 // What a chunk of particles finds: for each particle first its neighbours of a lower id, then those of a higher one.
 struct Found {
-  std::vector<Key> lower, higher;
+  std::vector<Index> lower, higher;                          // rows
   std::vector<Index> lower_end, higher_end;                  // by particle of the chunk
 };
 
@@ -82,9 +81,15 @@ void Broadphase<Space>::operator()(Parallel parallel, Read<&Search::due> due, Re
   std::vector<Found> found((n + chunk - 1) / chunk);
   parallel.chunks(n, chunk, [&](std::size_t k, std::size_t begin, std::size_t end) {
     Found& f = found[k];
-    f.lower.reserve(8 * (end - begin));
-    f.higher.reserve(8 * (end - begin));
+    f.lower_end.reserve(end - begin);
+    f.higher_end.reserve(end - begin);
     std::vector<Index> near;                                 // places in the grid's order
+    std::vector<Key> lower, higher;
+    const auto append = [](std::vector<Key>& keys, Key* keys_end, std::vector<Index>& rows) {
+      sort_short(keys.data(), keys_end);
+      for (const Key* key = keys.data(); key < keys_end; ++key) rows.push_back(row_of(*key));
+      return static_cast<Index>(rows.size());
+    };
     for (std::size_t p = begin; p < end; ++p) {
       const Vec3 x = position[p];
       const double mine = radius[p] + margin[p];
@@ -111,22 +116,16 @@ void Broadphase<Space>::operator()(Parallel parallel, Read<&Search::due> due, Re
             for (int a = 0; a < nx; ++a) look(layout.index(xs[a], ys[b], zs[c]), layout.index(xs[a], ys[b], zs[c]));
           }
         }
-      const std::size_t low = f.lower.size(), high = f.higher.size();
-      f.lower.resize(low + count);
-      f.higher.resize(high + count);
-      Key *l = f.lower.data() + low, *h = f.higher.data() + high;
+      if (lower.size() < count) lower.resize(2 * count), higher.resize(2 * count);
+      Key *l = lower.data(), *h = higher.data();
       for (std::size_t s = 0; s < count; ++s) {
         const Index q = order[near[s]];
         *l = *h = key(id[q], q);
         l += id[q] < id[p];
         h += id[q] > id[p];
       }
-      sort_short(f.lower.data() + low, l);
-      sort_short(f.higher.data() + high, h);
-      f.lower.resize(static_cast<std::size_t>(l - f.lower.data()));
-      f.higher.resize(static_cast<std::size_t>(h - f.higher.data()));
-      f.lower_end.push_back(static_cast<Index>(f.lower.size()));
-      f.higher_end.push_back(static_cast<Index>(f.higher.size()));
+      f.lower_end.push_back(append(lower, l, f.lower));
+      f.higher_end.push_back(append(higher, h, f.higher));
     }
   });
 
@@ -135,10 +134,10 @@ void Broadphase<Space>::operator()(Parallel parallel, Read<&Search::due> due, Re
     offset[k + 1] = offset[k] + static_cast<Index>(found[k].higher.size());
     lower_offset[k + 1] = lower_offset[k] + static_cast<Index>(found[k].lower.size());
   }
-  for (auto* c : {&neighbours->row, &neighbours->id, &neighbours->contact}) c->data.resize(offset.back());
-  neighbourhood->lower.data.resize(offset.back());
-  neighbourhood->first.data.resize(n + 1);
-  neighbourhood->first_lower.data.resize(n + 1);
+  for (auto* c : {&neighbours->row, &neighbours->id, &neighbours->contact}) resize_for_overwrite(c->data, offset.back());
+  resize_for_overwrite(neighbourhood->lower.data, offset.back());
+  resize_for_overwrite(neighbourhood->first.data, n + 1);
+  resize_for_overwrite(neighbourhood->first_lower.data, n + 1);
   neighbourhood->first.data[n] = neighbourhood->first_lower.data[n] = offset.back();
   parallel.chunks(n, chunk, [&](std::size_t k, std::size_t begin, std::size_t end) {
     const Found& f = found[k];
@@ -147,8 +146,8 @@ void Broadphase<Space>::operator()(Parallel parallel, Read<&Search::due> due, Re
       neighbourhood->first_lower.data[p] = lower_offset[k] + (p > begin ? f.lower_end[p - begin - 1] : 0);
     }
     for (std::size_t e = 0; e < f.higher.size(); ++e) {
-      neighbours->row.data[offset[k] + e] = row_of(f.higher[e]);
-      neighbours->id.data[offset[k] + e] = id_of(f.higher[e]);
+      neighbours->row.data[offset[k] + e] = f.higher[e];
+      neighbours->id.data[offset[k] + e] = id[f.higher[e]];
     }
   });
   parallel.chunks(n, chunk, [&](std::size_t k, std::size_t begin, std::size_t end) {
@@ -156,7 +155,7 @@ void Broadphase<Space>::operator()(Parallel parallel, Read<&Search::due> due, Re
     std::size_t e = 0;
     for (std::size_t p = begin; p < end; ++p)
       for (; e < f.lower_end[p - begin]; ++e)
-        neighbourhood->lower.data[lower_offset[k] + e] = entry_of(*neighbourhood.table, *neighbours.table, row_of(f.lower[e]), static_cast<Index>(p));
+        neighbourhood->lower.data[lower_offset[k] + e] = entry_of(*neighbourhood.table, *neighbours.table, f.lower[e], static_cast<Index>(p));
   });
 }
 

@@ -106,16 +106,16 @@ void BroadphaseBody::operator()(Parallel parallel, Read<&Search::due> due, Read<
   }
   const std::size_t total = place_offset.back();
   BodyContacts& c = *contacts.table;
-  for (auto* column : {&c.particle, &c.geometry, &c.slot, &c.first_triangle, &c.triangle_count}) column->data.resize(total);
+  for (auto* column : {&c.particle, &c.geometry, &c.slot, &c.first_triangle, &c.triangle_count}) resize_for_overwrite(column->data, total);
   c.overlap.data.assign(total, 0.0);
   c.normal.data.assign(total, Vec3{});
   c.curvature.data.assign(total, 0.0);
-  c.force.data.resize(total);
-  c.torque.data.resize(columns.torque ? total : 0);
-  c.rolling_torque.data.resize(columns.rolling ? total : 0);
-  c.spring.data.resize(columns.spring ? total : 0);
-  c.rolling.data.resize(columns.rolling ? total : 0);
-  triangles->triangle.data.resize(triangle_offset.back());
+  resize_for_overwrite(c.force.data, total);
+  resize_for_overwrite(c.torque.data, columns.torque ? total : 0);
+  resize_for_overwrite(c.rolling_torque.data, columns.rolling ? total : 0);
+  resize_for_overwrite(c.spring.data, columns.spring ? total : 0);
+  resize_for_overwrite(c.rolling.data, columns.rolling ? total : 0);
+  resize_for_overwrite(triangles->triangle.data, triangle_offset.back());
   parallel(found.size(), 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       std::copy(found[k].triangles.begin(), found[k].triangles.end(), triangles->triangle.data.begin() + triangle_offset[k]);
@@ -130,7 +130,7 @@ void BroadphaseBody::operator()(Parallel parallel, Read<&Search::due> due, Read<
       }
     }
   });
-  incidence->first.data.resize(n + 1);
+  resize_for_overwrite(incidence->first.data, n + 1);
   incidence->first.data[0] = 0;
   for (std::size_t p = 0; p < n; ++p) incidence->first.data[p + 1] = incidence->first.data[p] + count[p];
 }
@@ -174,8 +174,8 @@ void assign_slots(const MeshContacts& touched, const Pose& pose, double* overlap
 
 }  // namespace
 
-void ContactGeometryBody::operator()(Parallel parallel, Read<&BodyIncidence::first> first, Read<&BodyContacts::geometry> geometry,
-                                     Read<&BodyContacts::first_triangle> first_triangle,
+void ContactGeometryBody::operator()(Parallel parallel, Read<&BodyContacts::particle> particle, Read<&BodyContacts::geometry> geometry,
+                                     Read<&BodyContacts::slot> slot, Read<&BodyContacts::first_triangle> first_triangle,
                                      Read<&BodyContacts::triangle_count> triangle_count, Read<&Triangles::triangle> triangle,
                                      Read<&Particles::position> position, Read<&Particles::radius> radius,
                                      Read<&Geometries::body> body, Read<&Geometries::shape> shape,
@@ -184,26 +184,25 @@ void ContactGeometryBody::operator()(Parallel parallel, Read<&BodyIncidence::fir
                                      Update<&BodyContacts::curvature> curvature) const {
   std::vector<Pose> world(shape.size());
   for (std::size_t g = 0; g < shape.size(); ++g) world[g] = pose[body[g]] * local[g];
-  parallel(position.size(), 2048, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p)
-      for (Index c = first[p]; c < first[p + 1]; ++c) {
-        const Index g = geometry[c];
-        const Vec3 x = to_local(world[g], position[p]);
-        if (const Mesh* mesh = mesh_of(shape[g])) {
-          const MeshContacts touched = mesh->touch(x, radius[p], triangle.subspan(first_triangle[c], triangle_count[c]));
-          assign_slots(touched, world[g], &overlap[c], &normal[c]);
-          c += max_mesh_contacts - 1;
-          continue;
-        }
-        std::visit([&](const auto& s) {
-          if constexpr (!std::is_same_v<std::decay_t<decltype(s)>, MeshShape>) {
-            const Nearest at = nearest(s, x);
-            overlap[c] = radius[p] - at.distance;
-            normal[c] = rotate(world[g].orientation, at.normal);
-            curvature[c] = at.curvature;
-          }
-        }, shape[g]);
+  parallel(geometry.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = begin; c < end; ++c) {
+      const Index g = geometry[c], p = particle[c];
+      const Vec3 x = to_local(world[g], position[p]);
+      if (const Mesh* mesh = mesh_of(shape[g])) {            // its first slot does it for all
+        if (slot[c] != 0) continue;
+        const MeshContacts touched = mesh->touch(x, radius[p], triangle.subspan(first_triangle[c], triangle_count[c]));
+        assign_slots(touched, world[g], &overlap[c], &normal[c]);
+        continue;
       }
+      std::visit([&](const auto& s) {
+        if constexpr (!std::is_same_v<std::decay_t<decltype(s)>, MeshShape>) {
+          const Nearest at = nearest(s, x);
+          overlap[c] = radius[p] - at.distance;
+          normal[c] = rotate(world[g].orientation, at.normal);
+          curvature[c] = at.curvature;
+        }
+      }, shape[g]);
+    }
   });
 }
 

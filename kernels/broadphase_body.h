@@ -24,8 +24,8 @@ struct BroadphaseBody {
 struct ContactGeometryBody {
   static constexpr const char* name = "contact_geometry_body";
 
-  void operator()(Parallel parallel, Read<&BodyIncidence::first> first, Read<&BodyContacts::geometry> geometry,
-                  Read<&BodyContacts::first_triangle> first_triangle, Read<&BodyContacts::triangle_count> triangle_count,
+  void operator()(Parallel parallel, Read<&BodyContacts::particle> particle, Read<&BodyContacts::geometry> geometry,
+                  Read<&BodyContacts::slot> slot, Read<&BodyContacts::first_triangle> first_triangle, Read<&BodyContacts::triangle_count> triangle_count,
                   Read<&Triangles::triangle> triangle, Read<&Particles::position> position, Read<&Particles::radius> radius,
                   Read<&Geometries::body> body, Read<&Geometries::shape> shape, Read<&Geometries::local> local,
                   Read<&Bodies::pose> pose, Update<&BodyContacts::overlap> overlap, Update<&BodyContacts::normal> normal,

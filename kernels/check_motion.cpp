@@ -44,7 +44,7 @@ void CheckMotion<Space>::operator()(Parallel parallel, Read<&Particles::id> id, 
                                     Update<&Search::due> due, Write<&Search::list_due> list_due, Update<&Search::count> count,
                                     Update<&Search::listings> listings, Update<&Search::reach> reach, Write<&Search::trouble> trouble,
                                     Write<&Search::culprit> culprit, Write<&Search::outside> outside) const {
-  constexpr std::size_t chunk = 4096;
+  constexpr std::size_t chunk = 1024;
   const std::size_t n = position.size(), chunks = (n + chunk - 1) / chunk;
   const bool first = count[0] == 0;                          // nothing was listed yet
 

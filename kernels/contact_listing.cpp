@@ -41,17 +41,17 @@ void ContactListing<Space>::operator()(Parallel parallel, Read<&Search::list_due
   for (std::size_t k = 1; k < offset.size(); ++k) offset[k] += offset[k - 1];
 
   const std::size_t total = offset.back();
-  for (auto* c : {&contacts->i, &contacts->j, &contacts->partner}) c->data.resize(total);
-  contacts->force.data.resize(total);
-  contacts->torque.data.resize(columns.torque ? total : 0);
-  contacts->arm_ratio.data.resize(columns.arm_ratio ? total : 0);
-  contacts->spring.data.resize(columns.spring ? total : 0);
-  contacts->rolling.data.resize(columns.rolling ? total : 0);
-  for (auto* c : {&incidence->begin_lower, &incidence->end_lower}) c->data.resize(n);
-  incidence->first.data.resize(n + 1);
+  for (auto* c : {&contacts->i, &contacts->j, &contacts->partner}) resize_for_overwrite(c->data, total);
+  resize_for_overwrite(contacts->force.data, total);
+  resize_for_overwrite(contacts->torque.data, columns.torque ? total : 0);
+  resize_for_overwrite(contacts->arm_ratio.data, columns.arm_ratio ? total : 0);
+  resize_for_overwrite(contacts->spring.data, columns.spring ? total : 0);
+  resize_for_overwrite(contacts->rolling.data, columns.rolling ? total : 0);
+  for (auto* c : {&incidence->begin_lower, &incidence->end_lower}) resize_for_overwrite(c->data, n);
+  resize_for_overwrite(incidence->first.data, n + 1);
   incidence->first.data[n] = static_cast<Index>(total);
-  incidence->lower.data.resize(lower.size());
-  incidence->lower_of.data.resize(lower.size());
+  resize_for_overwrite(incidence->lower.data, lower.size());
+  resize_for_overwrite(incidence->lower_of.data, lower.size());
   parallel.chunks(n, chunk, [&](std::size_t k, std::size_t begin, std::size_t end) {
     Index c = offset[k];
     for (std::size_t p = begin; p < end; ++p) {

@@ -20,7 +20,7 @@ constexpr Vec3 mean(const Vec3& a, const Vec3& b) { return 0.5 * (a + b); }
 
 template <bool rotates, bool oriented, class Space> struct Integrate {
   static constexpr const char* name = "integrate";
-  static constexpr std::size_t grain = 4096;
+  static constexpr std::size_t grain = 1024;
 
   Space space;
   double time_step;   // h [s]

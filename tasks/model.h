@@ -44,7 +44,8 @@ struct Effects {
 
 Effects decide_effects(const World&, const Model&);
 
-// Margins and cell edge that the search uses.
+// Margins and cell edge that the search uses. Where there is room the skin is wider than the least, in smallest radii.
+inline constexpr double least_skin = 0.3;
 Margins margins_of(const World&, const Model&);
 double cell_of(const World&, const Model&);
 double largest_radius(const World&);
