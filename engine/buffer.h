@@ -2,6 +2,7 @@
 // straddle two of them, and with room for one number behind its last element, which a pack may read; a long one lies on huge pages where the system has them, since kernels jump about in it.
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <new>
 #include <vector>
@@ -18,6 +19,8 @@ template <class V> struct Aligned {
   template <class U> friend bool operator==(const Aligned&, const Aligned<U>&) { return true; }
 
   static constexpr std::size_t line = 64, huge = std::size_t{2} << 20;   // [bytes]
+
+  static constexpr std::size_t max_size() { return (PTRDIFF_MAX - 2 * huge) / sizeof(V); }   // what allocate() adds fits too
 
   V* allocate(std::size_t n) {
     const std::size_t bytes = n * sizeof(V) + sizeof(double), alignment = bytes < 2 * huge ? line : huge;
