@@ -42,7 +42,7 @@ std::string csv_of(const BenchMachine& m, const std::vector<SceneResult>& result
                               {"processor", quoted(m.processor)},
                               {"compiler", quoted(m.compiler)},
                               {"flags", quoted(m.flags)},
-                              {"vector_path", quoted(m.vectors)},
+                              {"vector_path", quoted(m.vector_path)},
                               {"commit", m.commit}};
         std::string names, values;
         for (const Cell& c : cells) {

@@ -107,7 +107,7 @@ json json_of(const BenchMachine& m, const BenchOptions& o, const std::vector<Sce
           {"method", "sdem"},           {"processor", m.processor},
           {"processors", m.processors}, {"compiler", m.compiler},
           {"flags", m.flags},           {"build_type", m.build},
-          {"vector_path", m.vectors},   {"program_start_seconds", m.program_start},
+          {"vector_path", m.vector_path}, {"program_start_seconds", m.program_start},
           {"threads", o.threads},       {"repeats", o.repeats},
           {"interrupted", interrupted}, {"scenes", scenes}};
 }

@@ -96,9 +96,9 @@ std::string roofline_table(const Roofline& f) {
 
 }  // namespace
 
-BenchMachine bench_machine() {
+BenchMachine bench_machine(const BenchOptions& o) {
   return {processor_name(),       compiler_name(),        compiler_flags(), build_type(),
-          vector_path(),          "skred " SKRED_VERSION, source_commit(),  automatic_threads().threads,
+          name_of(o.vector_path), "skred " SKRED_VERSION, source_commit(),  automatic_threads().threads,
           program_start_seconds()};
 }
 
@@ -109,7 +109,7 @@ std::string text_head(const BenchMachine& m, const BenchOptions& o) {
       "{}{}, smooth DEM; {}, {}; load average {:.2f}\n{}, {}; {}; vector path: {}\n"
       "median (least - most) of {} windows of {}; rates in million particle-steps per second\n",
       m.version, commit, m.processor, m.processors == 1 ? "1 processor" : fmt::format("{} processors", m.processors),
-      load_average(), m.compiler, m.build, m.flags, m.vectors, o.repeats, window);
+      load_average(), m.compiler, m.build, m.flags, m.vector_path, o.repeats, window);
 }
 
 std::string text_of(const SceneResult& r, bool all_kernels) {

@@ -41,6 +41,7 @@ class Runner {
     process_.memory_before = resident_memory();
     scene_ = job.read();
     Prepared prepared = prepare(scene_, false);
+    prepared.model.vector_path = job.vector_path;
     process_.read_seconds = seconds_since(job.started);
     sim_ = std::make_unique<Simulation>(std::move(prepared.world), std::move(prepared.model), job.threads);
     process_.particles = std::get<Particles>(sim_->world()).rows();

@@ -12,6 +12,7 @@
 #include "profiling/bench/state_file.h"
 #include "scenes/errors.h"
 #include "scenes/thread_option.h"
+#include "scenes/vector_option.h"
 
 using namespace skred;
 
@@ -184,4 +185,22 @@ TEST(BenchScenes, EachOneReads) {
 TEST(ThreadList, AscendingAndOnce) {
   EXPECT_EQ(parse_thread_list("4,1,2,1"), (std::vector<int>{1, 2, 4}));
   for (const char* bad : {"", "1,", "0", "1;2", "two", "1025", "1,-1"}) EXPECT_THROW(parse_thread_list(bad), UsageError) << bad;
+}
+
+TEST(VectorOption, WhatThisMachineHas) {
+  EXPECT_EQ(parse_vector("auto"), best_vector_path());
+  EXPECT_EQ(parse_vector("scalar"), VectorPath::scalar);
+  const std::vector older{VectorPath::scalar, VectorPath::sse2};
+  EXPECT_EQ(parse_vector("auto", older), VectorPath::sse2);
+  const auto message = [&](const char* text) -> std::string {
+    try {
+      parse_vector(text, older);
+      return "";
+    } catch (const UsageError& e) {
+      return e.what();
+    }
+  };
+  EXPECT_EQ(message("avx2"), "--vector: the processor has no 'avx2'; this machine has auto, scalar, sse2");
+  EXPECT_EQ(message("neon"), "--vector: 'neon' is not allowed; this machine has auto, scalar, sse2");
+  EXPECT_NE(message(""), "");
 }

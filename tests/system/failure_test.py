@@ -6,7 +6,7 @@ import resource
 import signal
 import subprocess
 
-from program import FILES, LIMIT, SMALL, Skip, check_trajectory, contains, main, read, scene, summary, wait_for, write
+from program import FILES, LIMIT, SMALL, Skip, check_trajectory, contains, main, read, scene, summary, vector_paths, wait_for, write
 
 LIST = "particles=[{list: [%s]}]"
 PAIR = LIST % "{radius: 1 cm, position: [0, 0, 2 cm]}, {radius: 1 cm, position: [0, 0, 3.5 cm]}"
@@ -94,6 +94,17 @@ def case_threads(program):
         program.small(options=["--threads", n], code=2, says=[f"--threads: '{n}' is not allowed: 1 .. 1024 or 'auto'"])
     program.small("end_time=1 ms", options=["--threads", "1024", "--quiet"])
     assert summary()["threads"] == 1024
+
+
+def case_vector_path(program):
+    here = vector_paths()
+    has = "this machine has " + ", ".join(["auto", *here])
+    for name in ("sse", "AVX2", "avx512f", "", "auto,scalar"):
+        program.small(options=["--vector", name], code=2, says=[f"--vector: '{name}' is not allowed", has])
+    for name in {"sse2", "avx2", "avx512"} - set(here):
+        program.small(options=["--vector", name], code=2, says=[f"--vector: the processor has no '{name}'", has])
+    assert not os.path.exists("out"), "a refused run leaves nothing behind"
+    program.small("end_time=1 ms", options=["--vector", "scalar"], says=["; vector path scalar\n"])
 
 
 def case_time_step_too_large(program):
