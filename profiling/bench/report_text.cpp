@@ -120,10 +120,13 @@ std::string text_of(const SceneResult& r, bool all_kernels) {
 
   std::string out = fmt::format("\n{}: {} particles, {}\n", r.name, count(n), r.what);
   const auto each = [&](double sum) { return digits(sum / double(n)); };
-  out += fmt::format("  {} contacts a particle ({} of {} listed pairs), {} of {} at walls; {}\n", digits(coordination(first, n)),
+  const auto every = [&](const char* what, std::int64_t times) {
+    return times ? fmt::format("a {} every {} steps", what, digits(double(first.steps) / double(times)))
+                 : fmt::format("no {} in {} steps", what, first.steps);
+  };
+  out += fmt::format("  {} contacts a particle ({} of {} listed pairs), {} of {} at walls\n  {}, {}\n", digits(coordination(first, n)),
                      each(first.pairs), each(first.candidates), each(first.wall_contacts), each(first.wall_candidates),
-                     first.searches ? "a search every " + digits(double(first.steps) / double(first.searches)) + " steps"
-                                    : fmt::format("no search in {} steps", first.steps));
+                     every("search", first.searches), every("listing", first.listings));
   std::string head = fmt::format("  {:>7}  {:<21}{:>9}{:>12}  {:<20}", "threads", " rate, " + r.executions.front(), "us/step",
                                  "ns/contact", " efficiency");
   for (std::size_t e = 1; e < r.executions.size(); ++e) head += fmt::format("{:>8}", r.executions[e]);
