@@ -32,7 +32,7 @@ def case_out_of_range(program):
     program.small(LIST % "{radius: -1 cm, position: [0, 0, 1]}", code=3, says=["radius: -1 cm is out of range: must be > 0 m"])
     program.small("materials.glass.restitution=1.5", code=3, says=["restitution", "1.5", "out of range"])
     program.small("materials.glass.restitution=0", code=3, says=["'glass'", "restitution 0 is out of range", "0.01 .. 1"])
-    program.small("periodic.x=[0, 4 cm]", code=3, says=["periodic: x: a length of 0.04 m is too short: at least 0.046 m"])
+    program.small("periodic.x=[0, 4 cm]", "search.skin=3 mm", code=3, says=["periodic: x: a length of 0.04 m is too short: at least 0.046 m"])
     program.small("end_time=1e300", code=3, says=["end_time: 1e+300 s takes", "steps", "allowed 1e+15"])
     program.small("time_step=1e-300", code=3, says=["end_time: 0.02 s takes", "steps of 1e-300 s"])
     for setting in ("gravity=[0, 0, 1e308]", LIST % "{radius: 1 cm, position: [0, 0, 1], velocity: [1e300, 0, 0]}",
