@@ -10,6 +10,7 @@
 //   If<condition, W>   the word W where an effect is in, nothing where it is out
 //   Parallel           a parallel loop, for kernels without Rows
 #pragma once
+#include <cstddef>
 #include <span>
 #include <type_traits>
 #include "engine/parallel.h"
@@ -29,6 +30,10 @@ template <class T> struct Resize { T* table; T* operator->() const { return tabl
 template <class T> struct Rows { std::size_t first = 0, last = 0; };
 struct Nothing {};
 template <bool condition, class W> using If = std::conditional_t<condition, W, Nothing>;
+
+// The plain array behind a word; null where the effect is out.
+template <class V> V* pointer(std::span<V> column) { return column.data(); }
+inline std::nullptr_t pointer(Nothing) { return nullptr; }
 
 // One use of one resource: a column, or the row count of a table (a table and its first column share an address).
 struct Access {

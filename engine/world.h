@@ -99,15 +99,18 @@ struct PreviousContacts {
 };
 
 // Where each particle finds its contacts. Row p of `first` for particle p, and one more at the end: contacts [first[p], first[p+1])
-// have p as i; lower[begin_lower[p] .. end_lower[p]) are those with p as j, by ascending id of i.
+// have p as i; lower[begin_lower[p] .. end_lower[p]) are those with p as j, by ascending id of i. These follow each other without
+// gaps for all particles of a block of rows [k incidence_block, (k + 1) incidence_block).
 // Read one after the other - lower ids first - they give every particle its partners by ascending id: the order of its sums.
+inline constexpr std::size_t incidence_block = 256;
 struct Incidence {
   Column<Index> first{"first_contact", "1"};
   Column<Index> begin_lower{"begin_lower_contacts", "1"}, end_lower{"end_lower_contacts", "1"};
   Column<Index> lower{"lower_contact", "1"};
+  Column<Index> lower_of{"particle_of_lower_contact", "1"};        // the p of each entry of `lower`
   std::size_t rows() const { return first.data.size(); }
   static constexpr auto columns() {
-    return std::tuple{&Incidence::first, &Incidence::begin_lower, &Incidence::end_lower, &Incidence::lower};
+    return std::tuple{&Incidence::first, &Incidence::begin_lower, &Incidence::end_lower, &Incidence::lower, &Incidence::lower_of};
   }
 };
 

@@ -51,6 +51,7 @@ void ContactListing<Space>::operator()(Parallel parallel, Read<&Search::list_due
   incidence->first.data.resize(n + 1);
   incidence->first.data[n] = static_cast<Index>(total);
   incidence->lower.data.resize(lower.size());
+  incidence->lower_of.data.resize(lower.size());
   parallel.chunks(n, chunk, [&](std::size_t k, std::size_t begin, std::size_t end) {
     Index c = offset[k];
     for (std::size_t p = begin; p < end; ++p) {
@@ -64,13 +65,15 @@ void ContactListing<Space>::operator()(Parallel parallel, Read<&Search::list_due
       }
     }
   });
-  parallel.chunks(n, chunk, [&](std::size_t, std::size_t begin, std::size_t end) {
+  parallel.chunks(n, incidence_block, [&](std::size_t, std::size_t begin, std::size_t end) {
+    Index to = first_lower[begin];
     for (std::size_t p = begin; p < end; ++p) {
-      Index to = first_lower[p];
       incidence->begin_lower.data[p] = to;
       for (Index e = first_lower[p]; e < first_lower[p + 1]; ++e) {
-        incidence->lower.data[to] = contact[lower[e]];       // kept if there is one, else overwritten by the next
-        to += contact[lower[e]] != no_index;
+        const Index c = contact[lower[e]];
+        incidence->lower.data[to] = c;                       // kept if there is one, else overwritten by the next
+        incidence->lower_of.data[to] = static_cast<Index>(p);
+        to += c != no_index;
       }
       incidence->end_lower.data[p] = to;
     }

@@ -61,9 +61,6 @@ template <class P> PairLoop<P> pair_loop(VectorPath path) {
   }
 }
 
-template <class V> auto* pointer(std::span<V> column) { return column.data(); }
-inline std::nullptr_t pointer(Nothing) { return nullptr; }
-
 template <class Law, class Kinds, class Space> struct ForceCalculationParticleParticle {
   static constexpr const char* name = "force_calculation_particle_particle";
   static constexpr std::size_t grain = 512;

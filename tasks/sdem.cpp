@@ -16,7 +16,9 @@ template <class Space> void add_integrate(Task& task, const Effects& e, const Sp
 
 template <bool contacts, bool bodies> void add_application(Task& task, const Model& m, const Effects& e, double h) {
   // Torques exist where a law makes them; an orientation that is only watched has none.
-  const auto add = [&]<Moments moments>() { task.add(ForceApplicationParticle<contacts, bodies, moments>{m.gravity, h}); };
+  const auto add = [&]<Moments moments>() {
+    task.add(ForceApplicationParticle<contacts, bodies, moments>{m.gravity, h, contact_summation<moments>(m.vector_path)});
+  };
   if (e.rolling && e.alike) add.template operator()<Moments{true, true, false}>();
   else if (e.rolling) add.template operator()<Moments{true, true, true}>();
   else if (e.friction && e.alike) add.template operator()<Moments{true, false, false}>();

@@ -1,5 +1,6 @@
-// The loop over pairs of particles for one set of vector instructions: compiled once per path, with SKRED_PATH its name and the
+// The hot loops for one set of vector instructions: compiled once per path, with SKRED_PATH its name and the
 // compiler flags that go with it (CMakeLists.txt). Nothing here may be used by other translation units but run<SKRED_PATH>.
+#include "kernels/force_application_loop.h"
 #include "kernels/force_calculation_loop.h"
 #include "engine/periodic.h"
 #include "kernels/laws.h"
@@ -13,5 +14,13 @@ namespace skred {
   SKRED_INSTANTIATE(LAW, VariousParticles, OpenSpace) SKRED_INSTANTIATE(LAW, VariousParticles, PeriodicSpace)
 
 SKRED_FOR_EACH_LAW(SKRED_INSTANTIATE_LAW)
+
+#define SKRED_INSTANTIATE_SUM(...) \
+  template void ContactSummation<Moments{__VA_ARGS__}>::run<VectorPath::SKRED_PATH>(const SumColumns&, std::size_t, std::size_t, ContactSums&);
+SKRED_INSTANTIATE_SUM(false, false, false)
+SKRED_INSTANTIATE_SUM(true, false, false)
+SKRED_INSTANTIATE_SUM(true, false, true)
+SKRED_INSTANTIATE_SUM(true, true, false)
+SKRED_INSTANTIATE_SUM(true, true, true)
 
 }  // namespace skred
