@@ -2,6 +2,7 @@
 // straddle two of them, and with room for one number behind its last element, which a pack may read.
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <new>
 #include <vector>
@@ -15,6 +16,8 @@ template <class V> struct Aligned {
   template <class U> friend bool operator==(const Aligned&, const Aligned<U>&) { return true; }
 
   static constexpr std::size_t line = 64;                    // [bytes]
+
+  static constexpr std::size_t max_size() { return (PTRDIFF_MAX - 2 * huge) / sizeof(V); }   // what allocate() adds fits too
 
   V* allocate(std::size_t n) {
     const std::size_t bytes = n * sizeof(V) + sizeof(double);

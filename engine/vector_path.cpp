@@ -4,7 +4,7 @@
 namespace skred {
 
 namespace {
-constexpr std::array all{VectorPath::avx512, VectorPath::avx2, VectorPath::sse2, VectorPath::scalar};
+constexpr std::array all{VectorPath::scalar, VectorPath::sse2, VectorPath::avx2, VectorPath::avx512};
 }
 
 bool has_vector_path(VectorPath p) {
@@ -19,11 +19,14 @@ bool has_vector_path(VectorPath p) {
 #endif
 }
 
-VectorPath best_vector_path() {
+std::vector<VectorPath> vector_paths() {
+  std::vector<VectorPath> out;
   for (const VectorPath p : all)
-    if (has_vector_path(p)) return p;
-  return VectorPath::scalar;
+    if (has_vector_path(p)) out.push_back(p);
+  return out;
 }
+
+VectorPath best_vector_path() { return vector_paths().back(); }
 
 const char* name_of(VectorPath p) {
   switch (p) {

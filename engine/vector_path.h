@@ -5,6 +5,7 @@
 #pragma once
 #include <optional>
 #include <string_view>
+#include <vector>
 
 namespace skred {
 
@@ -13,6 +14,7 @@ enum class VectorPath { scalar, sse2, avx2, avx512 };
 // The widest that this processor has.
 VectorPath best_vector_path();
 bool has_vector_path(VectorPath);
+std::vector<VectorPath> vector_paths();                            // all that it has, the widest last
 
 const char* name_of(VectorPath);                                   // "scalar", "sse2", "avx2", "avx512"
 std::optional<VectorPath> vector_path(std::string_view name);

@@ -25,7 +25,6 @@ std::string compiler_name() {
 std::string compiler_flags() { return SKRED_COMPILER_FLAGS; }
 std::string build_type() { return SKRED_BUILD_TYPE; }
 std::string source_commit() { return SKRED_COMMIT; }
-std::string vector_path() { return "scalar"; }
 
 double load_average() {
   double load = -1;

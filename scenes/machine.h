@@ -9,7 +9,6 @@ std::string compiler_name();
 std::string compiler_flags();        // of the build, for C++
 std::string build_type();            // "Release"
 std::string source_commit();         // of the sources when the build was configured; empty if unknown. It sees no later change
-std::string vector_path();           // which vector instructions the kernels use: "scalar"
 double load_average();               // of the last minute; negative if unknown
 double peak_memory();                // [byte] of this process
 double resident_memory();            // [byte] of this process, now; 0 if unknown

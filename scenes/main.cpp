@@ -15,6 +15,7 @@
 #include "scenes/schema.h"
 #include "scenes/show.h"
 #include "scenes/thread_option.h"
+#include "scenes/vector_option.h"
 
 namespace {
 
@@ -59,11 +60,12 @@ int run_program(int argc, char** argv) {
 
   SceneOptions on;
   RunOptions run;
-  std::string threads = "auto", trace_steps, format = "text", explain_path, shell;
+  std::string threads = "auto", vector = "auto", trace_steps, format = "text", explain_path, shell;
 
   CLI::App* run_verb = app.add_subcommand("run", "simulate a scene");
   on.add_to(*run_verb);
   run_verb->add_option("--threads", threads, fmt::format("1 .. {}, or auto: as many as the machine gives", most_threads))->capture_default_str();
+  run_verb->add_option("--vector", vector, vector_option_help)->type_name(vector_option_words)->capture_default_str();
   run_verb->add_option("--output", run.output, "folder of the results (default: results/NAME-METHOD, numbered)");
   run_verb->add_flag("--overwrite", run.overwrite, "replace the results of an earlier run in that folder");
   run_verb->add_flag("--force", run.force, "run even with a time step beyond the limit");
@@ -100,6 +102,8 @@ int run_program(int argc, char** argv) {
 
   if (*run_verb) {
     run.threads = parse_threads(threads, run.threads_reason);
+    run.vector_path = parse_vector(vector);
+    run.vector_reason = vector == "auto" ? "the widest that this machine has" : "";
     if (!trace_steps.empty()) {
       run.trace_steps = parse_steps(trace_steps);
       if (run.trace.empty() && run.timeline.empty()) throw UsageError("--trace-steps: needs --trace or --timeline");

@@ -128,13 +128,15 @@ void count_for_trace(Run& r, const Measures& m) {
 nlohmann::json make_summary(const Run& r, const std::string& outcome, double wall, const Timeline::Totals& totals) {
   const std::size_t particles = std::get<Particles>(r.sim.world()).rows();
   const double steps = double(r.sim.steps_done());
-  return {{"scene", r.scene.name}, {"method", "sdem"}, {"outcome", outcome}, {"threads", r.sim.threads()}, {"particles", particles},
+  return {{"scene", r.scene.name}, {"method", "sdem"}, {"outcome", outcome}, {"threads", r.sim.threads()},
+          {"vector_path", name_of(r.sim.model().vector_path)}, {"particles", particles},
           {"bodies", std::get<Bodies>(r.sim.world()).rows()}, {"steps", r.sim.steps_done()}, {"time_step", r.sim.model().time_step},
           {"simulated_time", r.sim.time()}, {"wall_time", wall},
           {"particle_steps_per_second", wall > 0 ? steps * double(particles) / wall : 0.0},
           {"contacts", r.last.contacts + r.last.body_contacts}, {"max_overlap_ratio", r.last.max_overlap_ratio},
           {"kinetic_energy", r.last.kinetic_energy + r.last.rotational_energy}, {"state_hash", hash_text(r.sim.state_hash())},
           {"frames", r.recorder.frames()}, {"searches", std::get<Search>(r.sim.world()).count.data[0]},
+          {"listings", std::get<Search>(r.sim.world()).listings.data[0]},
           {"particles_outside_bounds", std::get<Search>(r.sim.world()).outside.data[0]}, {"peak_memory", peak_memory()}, {"profiling_cost", totals.cost},
           {"software", "skred " SKRED_VERSION}, {"processor", processor_name()}, {"compiler", compiler_name()},
           {"load_average", load_average()}, {"kernels", profile_json(totals)}};
@@ -219,11 +221,14 @@ int run_scene(const Scene& scene, const RunOptions& options) {
   spdlog::logger& log = *log_owner;
   const std::vector<std::string> notes = prepared.notes, warnings = prepared.warnings;
 
+  prepared.model.vector_path = options.vector_path;
   Simulation sim(std::move(prepared.world), std::move(prepared.model), options.threads);
   const std::size_t particles = std::get<Particles>(sim.world()).rows();
   log.info("skred {}: scene '{}', smooth DEM, {} particles, {} bodies with {} geometries", SKRED_VERSION, scene.name, particles,
            std::get<Bodies>(sim.world()).rows(), std::get<Geometries>(sim.world()).rows());
-  log.info("threads {}{}", sim.threads(), options.threads_reason.empty() ? "" : " (auto: " + options.threads_reason + ")");
+  const auto with_reason = [](const std::string& reason) { return reason.empty() ? "" : " (auto: " + reason + ")"; };
+  log.info("threads {}{}; vector path {}{}", sim.threads(), with_reason(options.threads_reason), name_of(sim.model().vector_path),
+           with_reason(options.vector_reason));
   for (const std::string& n : notes) log.info(n);
   for (const std::string& w : warnings) log.warn("warning: {}", w);
   for (const Effects::Reason& e : sim.effects().reasons) log.debug("{}: {}, {}", e.effect, e.in ? "in" : "out", e.why);

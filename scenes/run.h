@@ -2,6 +2,7 @@
 #pragma once
 #include <optional>
 #include <string>
+#include "engine/vector_path.h"
 #include "scenes/scene.h"
 
 namespace skred {
@@ -9,6 +10,8 @@ namespace skred {
 struct RunOptions {
   int threads = 1;
   std::string threads_reason;                        // how `auto` came to it; empty if given
+  VectorPath vector_path = best_vector_path();
+  std::string vector_reason;                         // likewise
   std::string output;                                // folder; empty: results/NAME-METHOD, numbered where taken
   bool overwrite = false, force = false, quiet = false, verbose = false;
   std::string trace, timeline, summary;              // files; empty: none

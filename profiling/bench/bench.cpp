@@ -79,7 +79,7 @@ SceneResult time_scene(const BenchOptions& o, const std::string& name, const Int
   // windows side by side can be compared. All do the same steps, so their states stay the same.
   std::vector<std::unique_ptr<Worker>> workers;
   for (const int threads : o.threads) {
-    const WorkerJob job{name, reader_of(o, name), threads, o.executions, o.states / fmt::format("frames-{}", getpid()),
+    const WorkerJob job{name, reader_of(o, name), threads, o.vector_path, o.executions, o.states / fmt::format("frames-{}", getpid()),
                         std::chrono::steady_clock::now()};
     workers.push_back(std::make_unique<Worker>(job, interrupt));
     workers.back()->start();

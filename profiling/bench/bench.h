@@ -4,6 +4,7 @@
 #include <functional>
 #include <string>
 #include <vector>
+#include "engine/vector_path.h"
 #include "profiling/bench/results.h"
 #include "scenes/scene.h"
 
@@ -16,6 +17,7 @@ struct BenchOptions {
   std::vector<int> threads;                           // ascending
   std::vector<Execution> executions;                  // the first is the one that rates and shares are of
   std::int64_t warm_up = 100, repeats = 5, steps = 0; // steps of a window; 0: about a second
+  VectorPath vector_path = best_vector_path();
   std::string method;                                 // of scene files; empty: what they say
   std::filesystem::path states;
   bool frames = false, roofline = false;

@@ -14,6 +14,7 @@
 #include "scenes/errors.h"
 #include "scenes/interrupt.h"
 #include "scenes/thread_option.h"
+#include "scenes/vector_option.h"
 
 namespace skred {
 
@@ -72,6 +73,7 @@ CLI::App* BenchCommand::add_to(CLI::App& program) {
       ->type_name(names + "all|FILE");
   verb->add_option("--threads", threads_, fmt::format("thread counts: 1 .. {} or auto, separated by commas", most_threads))
       ->capture_default_str();
+  verb->add_option("--vector", vector_, vector_option_help)->type_name(vector_option_words)->capture_default_str();
   verb->add_option("--execution", executions_, "what runs a step: graph, list, serial, separated by commas")
       ->capture_default_str();
   verb->add_option("--warm-up", options_.warm_up, "steps before the first window")
@@ -99,6 +101,7 @@ CLI::App* BenchCommand::add_to(CLI::App& program) {
 void BenchCommand::check() {
   options_.states = states_.empty() ? default_states() : std::filesystem::path(states_);
   options_.threads = parse_thread_list(threads_);
+  options_.vector_path = parse_vector(vector_);
   options_.executions = parse_executions(executions_);
   if (scenes_.empty() || scenes_ == "all") options_.scenes = scene_names(scenes_ == "all");
   else options_.scenes = split_list(scenes_);
@@ -121,7 +124,7 @@ int BenchCommand::time() {
   const InterruptGuard interrupt;
   std::vector<SceneResult> results;
   int code = exit_ok;
-  const BenchMachine machine = bench_machine();
+  const BenchMachine machine = bench_machine(options_);
   try {
     settle_all(options_, interrupt);
     if (settle_only_) return exit_ok;

@@ -16,7 +16,7 @@ class BenchCommand {
   int time();
 
   BenchOptions options_;
-  std::string scenes_, threads_ = "1,auto", executions_ = "graph,list,serial", states_, json_, csv_;
+  std::string scenes_, threads_ = "1,auto", executions_ = "graph,list,serial", vector_ = "auto", states_, json_, csv_;
   bool list_ = false, settle_only_ = false, verbose_ = false;
 };
 

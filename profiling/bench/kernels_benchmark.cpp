@@ -67,7 +67,10 @@ Model pellets(std::size_t side) {
   return m;
 }
 
-void search_is_due(Simulation& sim) { std::get<Search>(sim.world()).due.data[0] = 1; }
+void search_is_due(Simulation& sim) {
+  Search& s = std::get<Search>(sim.world());
+  s.due.data[0] = s.list_due.data[0] = 1;
+}
 
 // A second search, so that there is a list before the present one, and contacts have a history to carry over.
 void search_again(Simulation& sim) {

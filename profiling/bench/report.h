@@ -9,11 +9,11 @@ namespace skred {
 
 // Where and with what; the same in every format.
 struct BenchMachine {
-  std::string processor, compiler, flags, build, vectors, version, commit;
+  std::string processor, compiler, flags, build, vector_path, version, commit;
   int processors = 1;                        // that this process may use
   double program_start = 0;                  // [s] of starting the program and ending it
 };
-BenchMachine bench_machine();
+BenchMachine bench_machine(const BenchOptions&);
 
 // Lines of at most 110 columns. The head once, then a block per scene when it is there.
 std::string text_head(const BenchMachine&, const BenchOptions&);

@@ -35,6 +35,7 @@ std::string csv_of(const BenchMachine& m, const std::vector<SceneResult>& result
                               {"wall_contacts_per_particle", number(s.wall_contacts / n)},
                               {"candidates_per_particle", number(s.candidates / n)},
                               {"steps_per_search", s.searches ? number(double(s.steps) / double(s.searches)) : ""},
+                              {"steps_per_listing", s.listings ? number(double(s.steps) / double(s.listings)) : ""},
                               {"peak_bytes_per_particle", number((p.peak_memory - p.memory_before) / n)},
                               {"state_hash", p.hash},
                               {"load_average_before", number(r.load_before)},
@@ -42,7 +43,7 @@ std::string csv_of(const BenchMachine& m, const std::vector<SceneResult>& result
                               {"processor", quoted(m.processor)},
                               {"compiler", quoted(m.compiler)},
                               {"flags", quoted(m.flags)},
-                              {"vector_path", quoted(m.vectors)},
+                              {"vector_path", quoted(m.vector_path)},
                               {"commit", m.commit}};
         std::string names, values;
         for (const Cell& c : cells) {

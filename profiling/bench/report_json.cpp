@@ -25,7 +25,8 @@ json json_of(const Summary& s, const SceneResult& r) {
            {"ns_per_contact_and_step", json_of(s.contact_nanoseconds)}, {"contacts_per_particle", coordination(s, r.particles())},
            {"wall_contacts_per_particle", s.wall_contacts / n}, {"candidates_per_particle", s.candidates / n},
            {"wall_candidates_per_particle", s.wall_candidates / n}, {"searches", s.searches},
-           {"steps_per_search", s.searches ? json(double(s.steps) / double(s.searches)) : json()}, {"kernels", kernels}};
+           {"steps_per_search", s.searches ? json(double(s.steps) / double(s.searches)) : json()}, {"listings", s.listings},
+           {"steps_per_listing", s.listings ? json(double(s.steps) / double(s.listings)) : json()}, {"kernels", kernels}};
   out["efficiency"] = s.efficiency ? json_of(*s.efficiency) : json();
   return out;
 }
@@ -46,7 +47,7 @@ json json_of(const Process& p) {
 
 json json_of(const Window& w) {
   return {{"threads", w.threads}, {"execution", w.execution}, {"frame", w.frame}, {"steps", w.steps}, {"seconds", w.seconds},
-          {"searches", w.searches}, {"pairs", w.pairs}, {"wall_contacts", w.wall_contacts}};
+          {"searches", w.searches}, {"listings", w.listings}, {"pairs", w.pairs}, {"wall_contacts", w.wall_contacts}};
 }
 
 json json_of(const Roofline& f) {
@@ -107,7 +108,7 @@ json json_of(const BenchMachine& m, const BenchOptions& o, const std::vector<Sce
           {"method", "sdem"},           {"processor", m.processor},
           {"processors", m.processors}, {"compiler", m.compiler},
           {"flags", m.flags},           {"build_type", m.build},
-          {"vector_path", m.vectors},   {"program_start_seconds", m.program_start},
+          {"vector_path", m.vector_path}, {"program_start_seconds", m.program_start},
           {"threads", o.threads},       {"repeats", o.repeats},
           {"interrupted", interrupted}, {"scenes", scenes}};
 }

@@ -96,9 +96,9 @@ std::string roofline_table(const Roofline& f) {
 
 }  // namespace
 
-BenchMachine bench_machine() {
+BenchMachine bench_machine(const BenchOptions& o) {
   return {processor_name(),       compiler_name(),        compiler_flags(), build_type(),
-          vector_path(),          "skred " SKRED_VERSION, source_commit(),  automatic_threads().threads,
+          name_of(o.vector_path), "skred " SKRED_VERSION, source_commit(),  automatic_threads().threads,
           program_start_seconds()};
 }
 
@@ -109,7 +109,7 @@ std::string text_head(const BenchMachine& m, const BenchOptions& o) {
       "{}{}, smooth DEM; {}, {}; load average {:.2f}\n{}, {}; {}; vector path: {}\n"
       "median (least - most) of {} windows of {}; rates in million particle-steps per second\n",
       m.version, commit, m.processor, m.processors == 1 ? "1 processor" : fmt::format("{} processors", m.processors),
-      load_average(), m.compiler, m.build, m.flags, m.vectors, o.repeats, window);
+      load_average(), m.compiler, m.build, m.flags, m.vector_path, o.repeats, window);
 }
 
 std::string text_of(const SceneResult& r, bool all_kernels) {
@@ -120,10 +120,13 @@ std::string text_of(const SceneResult& r, bool all_kernels) {
 
   std::string out = fmt::format("\n{}: {} particles, {}\n", r.name, count(n), r.what);
   const auto each = [&](double sum) { return digits(sum / double(n)); };
-  out += fmt::format("  {} contacts a particle ({} of {} listed pairs), {} of {} at walls; {}\n", digits(coordination(first, n)),
+  const auto every = [&](const char* what, std::int64_t times) {
+    return times ? fmt::format("a {} every {} steps", what, digits(double(first.steps) / double(times)))
+                 : fmt::format("no {} in {} steps", what, first.steps);
+  };
+  out += fmt::format("  {} contacts a particle ({} of {} listed pairs), {} of {} at walls\n  {}, {}\n", digits(coordination(first, n)),
                      each(first.pairs), each(first.candidates), each(first.wall_contacts), each(first.wall_candidates),
-                     first.searches ? "a search every " + digits(double(first.steps) / double(first.searches)) + " steps"
-                                    : fmt::format("no search in {} steps", first.steps));
+                     every("search", first.searches), every("listing", first.listings));
   std::string head = fmt::format("  {:>7}  {:<21}{:>9}{:>12}  {:<20}", "threads", " rate, " + r.executions.front(), "us/step",
                                  "ns/contact", " efficiency");
   for (std::size_t e = 1; e < r.executions.size(); ++e) head += fmt::format("{:>8}", r.executions[e]);

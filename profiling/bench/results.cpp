@@ -60,6 +60,7 @@ Summary summarize(const SceneResult& r, int threads, const std::string& executio
       efficiencies.push_back(rates.back() * fewest / (threads * rate_of(*beside[k], r.particles())));
     s.steps += w.steps;
     s.searches += w.searches;
+    s.listings += w.listings;
     for (const auto& [to, from] : {std::pair{&s.pairs, w.pairs},
                                    {&s.wall_contacts, w.wall_contacts},
                                    {&s.candidates, w.candidates},

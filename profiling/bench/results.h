@@ -20,7 +20,7 @@ struct Window {
   int threads = 1;
   std::string execution;
   bool frame = false;                       // a frame was copied at its start, and written by its end
-  std::int64_t steps = 0, searches = 0;
+  std::int64_t steps = 0, searches = 0, listings = 0;
   double seconds = 0;
   double pairs = 0, wall_contacts = 0;      // that touch, mean of both ends
   double candidates = 0, wall_candidates = 0;
@@ -76,7 +76,7 @@ struct Summary {
   Spread contact_nanoseconds;               // of a step, over the contacts that touch
   std::optional<Spread> efficiency;  // rate / (threads / fewest threads * rate of the window beside it with the fewest threads)
   double pairs = 0, wall_contacts = 0, candidates = 0, wall_candidates = 0;
-  std::int64_t searches = 0;
+  std::int64_t searches = 0, listings = 0;
   std::vector<KernelTime> kernels;          // [s] a step
 };
 Summary summarize(const SceneResult&, int threads, const std::string& execution);

@@ -12,8 +12,8 @@ namespace skred {
 using nlohmann::json;
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(KernelTime, name, total, busy)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Window, threads, execution, frame, steps, searches, seconds, pairs, wall_contacts, candidates,
-                                   wall_candidates, kernels)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Window, threads, execution, frame, steps, searches, listings, seconds, pairs, wall_contacts,
+                                   candidates, wall_candidates, kernels)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Process, threads, particles, read_seconds, first_step_seconds, memory_before, memory,
                                    peak_memory, hash, last_hash)
 
@@ -41,6 +41,7 @@ class Runner {
     process_.memory_before = resident_memory();
     scene_ = job.read();
     Prepared prepared = prepare(scene_, false);
+    prepared.model.vector_path = job.vector_path;
     process_.read_seconds = seconds_since(job.started);
     sim_ = std::make_unique<Simulation>(std::move(prepared.world), std::move(prepared.model), job.threads);
     process_.particles = std::get<Particles>(sim_->world()).rows();
@@ -77,14 +78,15 @@ class Runner {
 
   json window(Execution how, std::int64_t steps, bool frame) {
     Window w{.threads = job_.threads, .execution = execution_name(how), .frame = frame, .steps = steps};
-    const auto search_count = [&] { return std::get<Search>(sim_->world()).count.data[0]; };
+    const Search& search = std::get<Search>(sim_->world());
     const Touching first = touching(*sim_);
-    const std::int64_t searches = search_count();
+    const std::int64_t searches = search.count.data[0], listings = search.listings.data[0];
     const Timeline::Totals before = sim_->timeline().totals();
     w.seconds = frame ? timed_steps_with_frame(how, steps) : timed_steps(how, steps);
     const Timeline::Totals after = sim_->timeline().totals();
     const Touching last = touching(*sim_);
-    w.searches = search_count() - searches;
+    w.searches = search.count.data[0] - searches;
+    w.listings = search.listings.data[0] - listings;
     w.pairs = 0.5 * (first.pairs + last.pairs);
     w.wall_contacts = 0.5 * (first.walls + last.walls);
     w.candidates = double(std::get<Contacts>(sim_->world()).rows());

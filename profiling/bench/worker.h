@@ -3,6 +3,7 @@
 #include <chrono>
 #include <filesystem>
 #include <functional>
+#include "engine/vector_path.h"
 #include "profiling/bench/child.h"
 #include "profiling/bench/results.h"
 #include "scenes/scene.h"
@@ -13,6 +14,7 @@ struct WorkerJob {
   std::string name;                                   // of the scene
   std::function<Scene()> read;
   int threads = 1;
+  VectorPath vector_path = VectorPath::scalar;
   std::vector<Execution> executions;                  // of the warm-up, in turn
   std::filesystem::path frames;                       // folder for frames; it is gone afterwards
   std::chrono::steady_clock::time_point started;      // just before the fork

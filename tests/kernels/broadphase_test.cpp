@@ -1,83 +1,74 @@
-// The search: all pairs within the skin, once, whatever the grid.
+// The search: all pairs within the margins of both, once, whatever the grid.
 #include "kernels/broadphase.h"
 #include <gtest/gtest.h>
-#include <random>
-#include <set>
+#include <limits>
 #include "kernels/cell_grid.h"
+#include "tests/kernels/spheres.h"
 
 namespace skred {
 namespace {
 
-using Pairs = std::set<std::pair<Index, Index>>;
-
-template <class Space> Pairs listed(World& w, const Space& space, double skin, double cell, double largest) {
-  char due = 1;
-  Particles& p = std::get<Particles>(w);
-  const Broadphase<Space> kernel{space, skin, cell, largest, {}};
-  kernel(Parallel{}, {{&due, 1}}, {p.id.data}, {p.position.data}, {p.radius.data}, {&std::get<CellGrid>(w)},
-         {&std::get<Contacts>(w)}, {&std::get<PreviousContacts>(w)}, {&std::get<Incidence>(w)});
-  Pairs out;
-  const Contacts& c = std::get<Contacts>(w);
-  for (std::size_t k = 0; k < c.rows(); ++k) {
-    const Index a = p.id.data[c.i.data[k]], b = p.id.data[c.j.data[k]];
-    EXPECT_LT(a, b);
-    EXPECT_EQ(c.partner.data[k], b);
-    EXPECT_TRUE(out.insert({a, b}).second) << "listed twice";
-  }
-  return out;
-}
-
-template <class Space> Pairs by_brute_force(const World& w, const Space& space, double skin) {
+// The pairs found; checks that each is with its lower id, once, and in order.
+template <class Space> Pairs neighbours(World& w, const Space& space, double cell) {
+  std::get<Search>(w).due.data[0] = 1;
+  call(Broadphase<Space>{space, cell}, w);
   const Particles& p = std::get<Particles>(w);
+  const Neighbours& list = std::get<Neighbours>(w);
+  const Neighbourhood& of = std::get<Neighbourhood>(w);
+  EXPECT_EQ(of.first.data.size(), p.rows() + 1);
+  EXPECT_EQ(of.first.data[p.rows()], list.rows());
   Pairs out;
-  for (Index a = 0; a < p.rows(); ++a)
-    for (Index b = 0; b < p.rows(); ++b) {
-      const double near = p.radius.data[a] + p.radius.data[b] + skin;
-      const Vec3 d = space.shortest(p.position.data[a] - p.position.data[b]);
-      if (p.id.data[a] < p.id.data[b] && dot(d, d) < near * near) out.insert({p.id.data[a], p.id.data[b]});
+  for (std::size_t a = 0; a < p.rows(); ++a)
+    for (Index e = of.first.data[a]; e < of.first.data[a + 1]; ++e) {
+      EXPECT_LT(p.id.data[a], list.id.data[e]);
+      EXPECT_EQ(list.id.data[e], p.id.data[list.row.data[e]]);
+      EXPECT_TRUE(out.insert({p.id.data[a], list.id.data[e]}).second) << "found twice";
     }
+  EXPECT_EQ(out.size(), list.rows());
   return out;
-}
-
-World random_spheres(int n, double edge, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> u(0, 1);
-  World w;
-  Particles& p = std::get<Particles>(w);
-  for (Index k = 0; k < Index(n); ++k) {
-    p.id.data.push_back(k);
-    p.position.data.push_back({edge * u(random), edge * u(random), edge * u(random)});
-    p.radius.data.push_back(0.3 + 0.4 * u(random));
-  }
-  std::shuffle(p.id.data.begin(), p.id.data.end(), random);
-  return w;
 }
 
 TEST(Broadphase, FindsEveryPairOnce) {
-  for (const double cell : {1.6, 2.9, 40.0}) {
+  for (const double cell : {least_cell, 2.9, 40.0}) {
     World w = random_spheres(800, 12, 3);
-    EXPECT_EQ(listed(w, OpenSpace{}, 0.2, cell, 0.7), by_brute_force(w, OpenSpace{}, 0.2)) << cell;
+    EXPECT_EQ(neighbours(w, OpenSpace{}, cell), by_brute_force(w, OpenSpace{}, &Particles::search_margin)) << cell;
+  }
+}
+
+TEST(Broadphase, MarginsOfBothCount) {
+  World w = random_spheres(2, 1, 1);
+  Particles& p = std::get<Particles>(w);
+  p.radius.data = {0.5, 0.25};
+  p.position.data = {{0, 0, 0}, {0.85, 0, 0}};               // a gap of 0.1
+  for (const auto& [one, other, near] : {std::tuple{0.1, 0.01, true}, {0.01, 0.1, true}, {0.06, 0.06, true}, {0.04, 0.04, false}}) {
+    p.search_margin.data = {one, other};
+    EXPECT_EQ(neighbours(w, OpenSpace{}, least_cell).size(), near ? 1u : 0u) << one << " " << other;
   }
 }
 
 TEST(Broadphase, ListsAreSortedByPartner) {
   World w = random_spheres(800, 12, 5);
-  listed(w, OpenSpace{}, 0.2, 1.6, 0.7);
-  const auto& in = std::get<Incidence>(w);
-  const auto& c = std::get<Contacts>(w);
+  neighbours(w, OpenSpace{}, least_cell);
+  const Neighbourhood& of = std::get<Neighbourhood>(w);
+  const Neighbours& list = std::get<Neighbours>(w);
   const auto& id = std::get<Particles>(w).id.data;
+  const auto owner = [&](Index e) {
+    return std::size_t(std::upper_bound(of.first.data.begin(), of.first.data.end(), e) - of.first.data.begin()) - 1;
+  };
+  EXPECT_EQ(of.lower.data.size(), list.rows());
+  ASSERT_EQ(of.first_lower.data.size(), id.size() + 1);
   std::size_t seen = 0;
   for (std::size_t p = 0; p < id.size(); ++p) {
-    std::vector<Index> partners;
-    for (Index k = in.first_lower.data[p]; k < in.first_lower.data[p + 1]; ++k) {
-      EXPECT_EQ(c.j.data[in.lower.data[k]], p);
-      partners.push_back(id[c.i.data[in.lower.data[k]]]);
+    std::vector<Index> partners;                             // lower ids first
+    for (Index k = of.first_lower.data[p]; k < of.first_lower.data[p + 1]; ++k) {
+      EXPECT_EQ(list.row.data[of.lower.data[k]], p);
+      partners.push_back(id[owner(of.lower.data[k])]);
     }
-    for (Index k = in.first.data[p]; k < in.first.data[p + 1]; ++k) partners.push_back(c.partner.data[k]);
+    for (Index e = of.first.data[p]; e < of.first.data[p + 1]; ++e) partners.push_back(list.id.data[e]);
     EXPECT_TRUE(std::is_sorted(partners.begin(), partners.end()));
     seen += partners.size();
   }
-  EXPECT_EQ(seen, 2 * c.rows());
+  EXPECT_EQ(seen, 2 * list.rows());
 }
 
 TEST(Broadphase, PeriodicDirections) {
@@ -85,8 +76,8 @@ TEST(Broadphase, PeriodicDirections) {
     World w = random_spheres(edge > 10 ? 800 : 60, edge, 9);
     const double infinite = std::numeric_limits<double>::infinity();
     const PeriodicSpace all{{0, 0, 0}, {edge, edge, edge}}, one{{0, 0, 0}, {infinite, edge, infinite}};
-    EXPECT_EQ(listed(w, all, 0.2, 1.6, 0.7), by_brute_force(w, all, 0.2)) << edge;
-    EXPECT_EQ(listed(w, one, 0.2, 1.6, 0.7), by_brute_force(w, one, 0.2)) << edge;
+    EXPECT_EQ(neighbours(w, all, least_cell), by_brute_force(w, all, &Particles::search_margin)) << edge;
+    EXPECT_EQ(neighbours(w, one, least_cell), by_brute_force(w, one, &Particles::search_margin)) << edge;
   }
 }
 
@@ -97,15 +88,26 @@ TEST(Broadphase, FarParticlesCostNoMemory) {
   p.position.data[17] = {1e9, -3e8, 5};
   p.position.data[18] = {1e9, -3e8, 5.1};
   p.position.data[19] = {-1e12, 4, 4};
-  EXPECT_EQ(listed(w, OpenSpace{}, 0.2, 1.6, 0.7), by_brute_force(w, OpenSpace{}, 0.2));
+  EXPECT_EQ(neighbours(w, OpenSpace{}, least_cell), by_brute_force(w, OpenSpace{}, &Particles::search_margin));
   EXPECT_LT(std::get<CellGrid>(w).start.data.size(), 5 * p.rows() + 100);
 }
 
 TEST(Broadphase, NoParticlesAndOne) {
   for (const int n : {0, 1, 2}) {
     World w = random_spheres(n, 1, 1);
-    EXPECT_EQ(listed(w, OpenSpace{}, 0.2, 1.6, 0.7).size(), n == 2 ? by_brute_force(w, OpenSpace{}, 0.2).size() : 0u);
+    EXPECT_EQ(neighbours(w, OpenSpace{}, least_cell), by_brute_force(w, OpenSpace{}, &Particles::search_margin)) << n;
   }
+}
+
+TEST(Broadphase, KeepsTheOldListUntilASearchIsDue) {
+  World w = random_spheres(50, 3, 2);
+  neighbours(w, OpenSpace{}, least_cell);
+  const Buffer<Index> before = std::get<Neighbours>(w).row.data;
+  ASSERT_FALSE(before.empty());
+  for (Vec3& x : std::get<Particles>(w).position.data) x *= 100.0;
+  std::get<Search>(w).due.data[0] = 0;
+  call(Broadphase<OpenSpace>{{}, least_cell}, w);
+  EXPECT_EQ(std::get<Neighbours>(w).row.data, before);
 }
 
 }  // namespace

@@ -12,13 +12,14 @@
 #include "profiling/bench/state_file.h"
 #include "scenes/errors.h"
 #include "scenes/thread_option.h"
+#include "scenes/vector_option.h"
 
 using namespace skred;
 
 namespace {
 
 Window window(int threads, double seconds, bool frame = false) {
-  Window w{.threads = threads, .execution = "graph", .frame = frame, .steps = 100, .searches = 5, .seconds = seconds};
+  Window w{.threads = threads, .execution = "graph", .frame = frame, .steps = 100, .searches = 5, .listings = 20, .seconds = seconds};
   w.pairs = 1900, w.wall_contacts = 100, w.candidates = 3000, w.wall_candidates = 200;
   w.kernels = {{"integrate", 0.1 * seconds, 0.1 * seconds * threads}, {"broadphase", 0.3 * seconds, 0.3 * seconds}};
   return w;
@@ -62,6 +63,7 @@ TEST(BenchSummary, RatesAndUnits) {
   EXPECT_DOUBLE_EQ(s.contact_nanoseconds.median, 1.5e9 / 100 / 2000);  // pairs and walls
   EXPECT_DOUBLE_EQ(coordination(s, 1000), 3.8);                       // pairs count for both, walls do not count
   EXPECT_EQ(s.searches, 15);
+  EXPECT_EQ(s.listings, 60);
   ASSERT_EQ(s.kernels.size(), 2u);
   EXPECT_NEAR(s.kernels[0].total, 0.1 * (1 + 1.5 + 3) / 300, 1e-15);  // of a step
   EXPECT_NEAR(s.kernels[0].busy, 2 * s.kernels[0].total, 1e-15);
@@ -118,6 +120,7 @@ TEST(BenchReport, TextFitsTheTerminal) {
   for (std::size_t at = 0, end; (end = text.find('\n', at)) != std::string::npos; at = end + 1)
     EXPECT_LE(end - at, 114u) << text.substr(at, end - at);
   EXPECT_NE(text.find("3.80 contacts a particle (1.90 of 3.00 listed pairs)"), std::string::npos) << text;
+  EXPECT_NE(text.find("a search every 20.0 steps, a listing every 5.00 steps"), std::string::npos) << text;
 }
 
 TEST(Roofline, ASmallerWorkingSetHasTheBandwidthOfItsCache) {
@@ -127,15 +130,15 @@ TEST(Roofline, ASmallerWorkingSetHasTheBandwidthOfItsCache) {
   EXPECT_EQ(l.bandwidth_for(1e9), 10e9);
 }
 
-TEST(Roofline, SearchKernelsCostAsOftenAsTheyRun) {
+TEST(Roofline, ListingKernelsCostAsOftenAsTheyRun) {
   const Limits l{{{1e5, 1e9}}, 1e9, 1e9};
   SceneResult r = drifting();
   Summary s = summarize(r, 1, "graph");
   s.kernels = {{"contact_hashing", 1e-3, 1e-3}, {"somebody_elses_kernel", 1, 1}};
   const Roofline f = roofline(s, 1000, l);
   ASSERT_EQ(f.kernels.size(), 1u) << "what is not counted is left out";
-  s.searches = 300;
-  EXPECT_NEAR(roofline(s, 1000, l).kernels[0].bytes, 20 * f.kernels[0].bytes, 1e-6);
+  s.listings *= 5;                                           // every step
+  EXPECT_NEAR(roofline(s, 1000, l).kernels[0].bytes, 5 * f.kernels[0].bytes, 1e-6);
 }
 
 TEST(BenchStart, LayersDoNotOverlapAndStayInside) {
@@ -184,4 +187,22 @@ TEST(BenchScenes, EachOneReads) {
 TEST(ThreadList, AscendingAndOnce) {
   EXPECT_EQ(parse_thread_list("4,1,2,1"), (std::vector<int>{1, 2, 4}));
   for (const char* bad : {"", "1,", "0", "1;2", "two", "1025", "1,-1"}) EXPECT_THROW(parse_thread_list(bad), UsageError) << bad;
+}
+
+TEST(VectorOption, WhatThisMachineHas) {
+  EXPECT_EQ(parse_vector("auto"), best_vector_path());
+  EXPECT_EQ(parse_vector("scalar"), VectorPath::scalar);
+  const std::vector older{VectorPath::scalar, VectorPath::sse2};
+  EXPECT_EQ(parse_vector("auto", older), VectorPath::sse2);
+  const auto message = [&](const char* text) -> std::string {
+    try {
+      parse_vector(text, older);
+      return "";
+    } catch (const UsageError& e) {
+      return e.what();
+    }
+  };
+  EXPECT_EQ(message("avx2"), "--vector: the processor has no 'avx2'; this machine has auto, scalar, sse2");
+  EXPECT_EQ(message("neon"), "--vector: 'neon' is not allowed; this machine has auto, scalar, sse2");
+  EXPECT_NE(message(""), "");
 }

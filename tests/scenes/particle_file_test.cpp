@@ -44,14 +44,14 @@ TEST_F(ParticleFiles, CsvWithAllColumns) {
   EXPECT_EQ(set.position[1], (Vec3{1, 2, 3}));           // in the order of ids
   EXPECT_EQ(set.velocity[1], (Vec3{4, 5, 6}));
   EXPECT_EQ(set.angular_velocity[1], (Vec3{7, 8, 9}));
-  EXPECT_EQ(set.radius, (std::vector<double>{0.25, 0.5}));
+  EXPECT_EQ(set.radius, (Buffer<double>{0.25, 0.5}));
   EXPECT_EQ(set.material, (std::vector<std::uint32_t>{1, 0}));
   EXPECT_EQ(set.position[0], (Vec3{0.1, 2, 3}));
 }
 
 TEST_F(ParticleFiles, CsvWithDefaults) {
   const ParticleSet set = read("z,y,x\n3,2,1\n6,5,4");
-  EXPECT_EQ(set.position, (std::vector<Vec3>{{1, 2, 3}, {4, 5, 6}}));
+  EXPECT_EQ(set.position, (Buffer<Vec3>{{1, 2, 3}, {4, 5, 6}}));
   EXPECT_EQ(set.radius[0], 0.01);
   EXPECT_EQ(set.material[0], 1u);
   EXPECT_EQ(set.velocity[0], Vec3{});
@@ -107,9 +107,9 @@ TEST_F(ParticleFiles, Hdf5WithVectorsAndColumns) {
     file.close();
   }
   const ParticleSet set = make_particles(scene_of(path, {}, ""));
-  EXPECT_EQ(set.position, (std::vector<Vec3>{{4, 5, 6}, {1, 2, 3}}));
+  EXPECT_EQ(set.position, (Buffer<Vec3>{{4, 5, 6}, {1, 2, 3}}));
   EXPECT_EQ(set.velocity[1], (Vec3{0, 1, 0}));
-  EXPECT_EQ(set.radius, (std::vector<double>{0.25, 0.5}));
+  EXPECT_EQ(set.radius, (Buffer<double>{0.25, 0.5}));
   EXPECT_EQ(set.material, (std::vector<std::uint32_t>{1, 0}));
 }
 

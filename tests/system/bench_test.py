@@ -6,7 +6,7 @@ import os
 import re
 import signal
 
-from program import SMALL, contains, h5py, json, main, read, scene, wait_for, write
+from program import SMALL, contains, h5py, json, main, read, scene, vector_paths, wait_for, write
 
 QUICK = ["bench", "--states", "states", "--threads", "1,2", "--steps", "20", "--repeats", "2", "--warm-up", "10"]
 
@@ -37,7 +37,8 @@ def case_from_nothing(program):
         rate = t["particle_steps_per_second"]
         assert 0 < rate["min"] <= rate["median"] <= rate["max"] and t["windows"] == 2 and t["steps"] == 40
         assert 4 < t["contacts_per_particle"] < 6 and 0 < t["wall_contacts_per_particle"] < 0.2
-        assert t["candidates_per_particle"] > t["contacts_per_particle"] / 2
+        assert t["candidates_per_particle"] > t["contacts_per_particle"] / 2 and t["listings"] >= t["searches"]
+        assert (t["steps_per_listing"] is None) == (t["listings"] == 0)
         assert (t["efficiency"] is None) == (threads == 1)
         contacts = 1000 * (t["contacts_per_particle"] / 2 + t["wall_contacts_per_particle"])
         close = t["ns_per_contact_and_step"]["median"] * contacts / (1e9 * t["seconds_per_step"]["median"])
@@ -80,6 +81,18 @@ def case_scene_file(program):
     (small,) = json.loads(done.stdout)["scenes"]
     assert small["particles"] == 2 and [t["execution"] for t in small["timings"]] == ["list", "list"]
     assert not os.path.exists("states"), "nothing to settle"
+
+
+def case_vector_path(program):
+    write("small.yaml", SMALL)
+    hashes = set()
+    for name in ["auto", *vector_paths()]:
+        result = json.loads(program(*QUICK, "--scene", "small.yaml", "--execution", "list", "--vector", name, "--json", "-").stdout)
+        assert result["vector_path"] == (vector_paths()[-1] if name == "auto" else name)
+        hashes.add(result["scenes"][0]["state_hash"])
+    assert len(hashes) == 1, hashes
+    contains(program(*QUICK, "--scene", "small.yaml", "--vector", "scalar").stdout, ["vector path: scalar"])
+    program("bench", "--scene", "small.yaml", "--vector", "mmx", code=2, says=["--vector: 'mmx' is not allowed", "scalar"])
 
 
 def case_refused(program):

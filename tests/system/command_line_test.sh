@@ -38,6 +38,8 @@ case_usage_errors() {
   skred run "$hello" --threads 0;               exits 2 "no threads"; says "'0' is not allowed"
   skred run "$hello" --threads 10000;           exits 2 "too many threads"; says "'10000' is not allowed"
   skred run "$hello" --threads two;             exits 2 "a word of threads"; says "'two' is not allowed"
+  skred run "$hello" --vector wide;             exits 2 "an unknown vector path"; says "'wide' is not allowed; this machine has auto, scalar"
+  skred bench --vector wide;                    exits 2 "an unknown vector path of bench"; says "'wide' is not allowed"
   skred run "$hello" --trace-steps 5:5;         exits 2 "an empty range"; says '--trace-steps'
   skred run "$hello" --set a;                   exits 2 "an override without value"; says '--set'
   skred graph "$hello" --format png;            exits 2 "an unknown format"
@@ -114,6 +116,8 @@ case_completion_scripts_load() {
   cp out script
   equal "$(bash -c 'source ./script; COMP_WORDS=(skred run x.yaml --method n); COMP_CWORD=4; _skred; echo "${COMPREPLY[*]}"')" \
         ndem "completion of --method n"
+  equal "$(bash -c 'source ./script; COMP_WORDS=(skred bench --vector ""); COMP_CWORD=3; _skred; echo "${COMPREPLY[*]}"')" \
+        "auto scalar sse2 avx2 avx512" "completion of --vector"
   local shell
   for shell in zsh fish; do
     skred completion $shell

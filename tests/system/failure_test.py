@@ -6,7 +6,7 @@ import resource
 import signal
 import subprocess
 
-from program import FILES, LIMIT, SMALL, Skip, check_trajectory, contains, main, read, scene, summary, wait_for, write
+from program import FILES, LIMIT, SMALL, Skip, check_trajectory, contains, main, read, scene, summary, vector_paths, wait_for, write
 
 LIST = "particles=[{list: [%s]}]"
 PAIR = LIST % "{radius: 1 cm, position: [0, 0, 2 cm]}, {radius: 1 cm, position: [0, 0, 3.5 cm]}"
@@ -32,7 +32,7 @@ def case_out_of_range(program):
     program.small(LIST % "{radius: -1 cm, position: [0, 0, 1]}", code=3, says=["radius: -1 cm is out of range: must be > 0 m"])
     program.small("materials.glass.restitution=1.5", code=3, says=["restitution", "1.5", "out of range"])
     program.small("materials.glass.restitution=0", code=3, says=["'glass'", "restitution 0 is out of range", "0.01 .. 1"])
-    program.small("periodic.x=[0, 4 cm]", code=3, says=["periodic: x: a length of 0.04 m is too short: at least 0.046 m"])
+    program.small("periodic.x=[0, 4 cm]", "search.skin=3 mm", code=3, says=["periodic: x: a length of 0.04 m is too short: at least 0.046 m"])
     program.small("end_time=1e300", code=3, says=["end_time: 1e+300 s takes", "steps", "allowed 1e+15"])
     program.small("time_step=1e-300", code=3, says=["end_time: 0.02 s takes", "steps of 1e-300 s"])
     for setting in ("gravity=[0, 0, 1e308]", LIST % "{radius: 1 cm, position: [0, 0, 1], velocity: [1e300, 0, 0]}",
@@ -94,6 +94,17 @@ def case_threads(program):
         program.small(options=["--threads", n], code=2, says=[f"--threads: '{n}' is not allowed: 1 .. 1024 or 'auto'"])
     program.small("end_time=1 ms", options=["--threads", "1024", "--quiet"])
     assert summary()["threads"] == 1024
+
+
+def case_vector_path(program):
+    here = vector_paths()
+    has = "this machine has " + ", ".join(["auto", *here])
+    for name in ("sse", "AVX2", "avx512f", "", "auto,scalar"):
+        program.small(options=["--vector", name], code=2, says=[f"--vector: '{name}' is not allowed", has])
+    for name in {"sse2", "avx2", "avx512"} - set(here):
+        program.small(options=["--vector", name], code=2, says=[f"--vector: the processor has no '{name}'", has])
+    assert not os.path.exists("out"), "a refused run leaves nothing behind"
+    program.small("end_time=1 ms", options=["--vector", "scalar"], says=["; vector path scalar\n"])
 
 
 def case_time_step_too_large(program):

@@ -88,6 +88,14 @@ def state_hash(folder="out"):
     return summary(folder)["state_hash"]
 
 
+def vector_paths():
+    """Those that this processor has, by what the system says of it; the widest last."""
+    with open("/proc/cpuinfo") as file:
+        flags = next((line.split() for line in file if line.startswith("flags")), [])
+    needs = {"sse2": ["sse2"], "avx2": ["avx2"], "avx512": ["avx512f", "avx512dq", "avx512vl"]}
+    return ["scalar"] + [name for name, all_of in needs.items() if set(all_of) <= set(flags)]
+
+
 def h5py():
     try:
         import h5py as module

@@ -9,19 +9,20 @@ import subprocess
 import sys
 import xml.etree.ElementTree as xml
 
-from program import FILES, SMALL, Skip, check_trajectory, contains, h5py, json, main, read, scene, state_hash, summary, write
+from program import (FILES, SMALL, Skip, check_trajectory, contains, h5py, json, main, read, scene, state_hash, summary, vector_paths,
+                     write)
 
 
 def case_run_leaves_a_complete_folder(program):
     done = program.run(scene("hello"), "--end-time", "0.3 s", "--threads", "2", "--summary", "copy.json")
     assert set(os.listdir("out")) == FILES, os.listdir("out")
     assert done.stdout == ""
-    contains(done.stderr, ["5 particles", "threads 2", "time step", "(auto)", "force_calculation_particle_body", "profiling:",
+    contains(done.stderr, ["5 particles", "threads 2", f"vector path {vector_paths()[-1]} (auto: the widest", "time step", "(auto)", "force_calculation_particle_body", "profiling:",
                            "finished at t = 0.2999", "state hash " + state_hash()])
     contains(read("out", "log.txt"), ["5 particles", "rolling resistance: in", "finished at t = 0.2999"])
     s = summary()
     assert json.loads(read("copy.json")) == s
-    keys = ("scene method threads particles bodies steps time_step simulated_time wall_time particle_steps_per_second contacts "
+    keys = ("scene method threads vector_path particles bodies steps time_step simulated_time wall_time particle_steps_per_second contacts "
             "max_overlap_ratio kinetic_energy state_hash kernels").split()
     assert not [k for k in keys if k not in s], s.keys()
     assert (s["scene"], s["method"], s["threads"], s["particles"], s["bodies"], s["outcome"]) == ("hello", "sdem", 2, 5, 1, "finished")
@@ -45,6 +46,9 @@ def case_hash_needs_neither_threads_nor_output(program):
     assert summary("1")["contacts"] > 10
     for threads in (2, 4):
         hashes[str(threads)] = run(str(threads), "--threads", threads)
+    for path in vector_paths():
+        hashes[path] = run(path, "--vector", path)
+        assert summary(path)["vector_path"] == path
     hashes["trace"] = run("trace", "--trace", "t.json", "--timeline", "t.svg")
     hashes["output"] = run("output", "--set", "output={frame_interval: 1 ms, statistics_interval: 50 us, contacts: true, precision: double}")
     hashes["search"] = run("search", "--set", "search={skin: 0.5 mm, cell_size: 20 mm, reorder_every: 1}")
@@ -222,7 +226,7 @@ def case_other_verbs(program):
         contains(program("completion", shell).stdout, ["skred", "run", "validate"])
     contains(program("--version").stdout, ["skred 0."])
     contains(program("--help").stdout, ["run", "graph", "validate"])
-    contains(program("run", "--help").stdout, ["--threads", "--trace-steps", "--summary"])
+    contains(program("run", "--help").stdout, ["--threads", "--vector", "auto|scalar|sse2|avx2|avx512", "--trace-steps", "--summary"])
 
 
 def case_wrong_usage(program):

@@ -1,5 +1,5 @@
-// Same scene, any thread count, any order of the kernels, any skin: the same bits. And an effect that is left out equals the
-// full step with its parameter at zero.
+// Same scene, any thread count, any order of the kernels, any skin, any vector instructions: the same bits. And an effect that is
+// left out equals the full step with its parameter at zero.
 #include <gtest/gtest.h>
 #include <algorithm>
 #include "tests/physics/lab.h"
@@ -67,6 +67,25 @@ TEST(Determinism, SerialListGraphAndShuffledOrder) {
   }
 }
 
+Lab periodic_cloud() {
+  Lab l(0.3, 0.5, 0.1);
+  add_cloud(l, 6, 2.05 * pellet_radius, 4, 0.8);
+  const double edge = 13 * pellet_radius;
+  l.model.periodic = PeriodicSpace{{-edge / 2, -edge / 2, -edge / 2}, {edge, edge, edge}};
+  return l;
+}
+
+TEST(Determinism, VectorPathsGiveTheSameBits) {
+  for (Lab l : {stirred(), periodic_cloud()}) {
+    l.model.vector_path = VectorPath::scalar;
+    const std::uint64_t reference = hash_after(l, 600, 1, Execution::serial);
+    for (const VectorPath path : vector_paths()) {
+      l.model.vector_path = path;
+      EXPECT_EQ(hash_after(l, 600, 2, Execution::graph), reference) << name_of(path) << (l.model.periodic ? ", periodic" : "");
+    }
+  }
+}
+
 TEST(Determinism, SkinCellsAndReorderingLeaveNoTrace) {
   Lab l = stirred();
   const std::uint64_t reference = hash_after(l, 600, 2, Execution::graph);
@@ -80,10 +99,7 @@ TEST(Determinism, SkinCellsAndReorderingLeaveNoTrace) {
 }
 
 TEST(Determinism, PeriodicBoxToo) {
-  Lab l(0.3, 0.5, 0.1);
-  add_cloud(l, 6, 2.05 * pellet_radius, 4, 0.8);
-  const double edge = 13 * pellet_radius;
-  l.model.periodic = PeriodicSpace{{-edge / 2, -edge / 2, -edge / 2}, {edge, edge, edge}};
+  Lab l = periodic_cloud();
   const std::uint64_t reference = hash_after(l, 600, 1, Execution::serial);
   l.model.skin = 0.7 * pellet_radius;
   l.model.reorder_every = 3;

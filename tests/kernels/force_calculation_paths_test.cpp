@@ -1,0 +1,189 @@
+// The loop over pairs of particles: every set of vector instructions gives the bits of the scalar one, for every law, and writes
+// no row but its own.
+#include <gtest/gtest.h>
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <limits>
+#include <random>
+#include "engine/buffer.h"
+#include "engine/periodic.h"
+#include "kernels/force_calculation_particle_particle.h"
+#include "kernels/laws.h"
+
+namespace skred {
+namespace {
+
+constexpr double radius = 0.006, mass = 4e-3, time_step = 5e-5;      // [m], [kg], [s]
+constexpr double edge = 0.5;                                         // [m] of the periodic box
+constexpr LawCoefficients stiff{6e6, 2e7, 1.8e3, 3.2e3, 0.5, 0.05};
+
+// Columns that the loop writes.
+struct Results {
+  Buffer<Vec3> force, torque, spring, rolling;
+  Buffer<double> arm_ratio;
+};
+
+// What a pair may be up to. Neighbouring rows are alike now and then, so that some packs hold one kind only and others several.
+enum Kind { apart, at_one_place, just_touching, at_rest, sticking, sliding, flying_apart, kinds };
+
+// Contacts between particles of random rows.
+struct Pairs {
+  Buffer<Index> i, j;
+  Buffer<Vec3> position, velocity, spin;
+  Buffer<double> radii, masses;
+  Buffer<Index> material;
+  std::vector<Kind> kind;
+  Results start;
+
+  template <class Space> Pairs(std::size_t count, const Space& space, bool various, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> u(-1, 1);
+    const auto any = [&](double scale) { return scale * Vec3{u(random), u(random), u(random)}; };
+    std::vector<Index> rows(2 * count);
+    for (std::size_t k = 0; k < rows.size(); ++k) rows[k] = Index(k);
+    std::shuffle(rows.begin(), rows.end(), random);
+    for (auto* c : {&position, &velocity, &spin}) c->resize(2 * count);
+    for (auto* c : {&radii, &masses}) c->resize(2 * count);
+    material.resize(2 * count);
+    for (auto* c : {&start.force, &start.torque, &start.spring, &start.rolling}) c->resize(count);
+    start.arm_ratio.resize(count);
+    Kind what = apart;
+    for (std::size_t k = 0, change = 0; k < count; ++k) {
+      if (k == change) what = Kind(random() % kinds), change += 1 + random() % (random() % 3 ? 2 : 20);
+      const Index a = rows[2 * k], b = rows[2 * k + 1];
+      i.push_back(a);
+      j.push_back(b);
+      kind.push_back(what);
+      for (const Index p : {a, b}) {
+        radii[p] = various ? 0.004 * (1.5 + u(random)) : radius;
+        masses[p] = various ? 4e-3 * (1.5 + u(random)) : mass;
+        material[p] = various ? random() % 3 : 0;
+        spin[p] = any(what == at_rest || what == sticking ? 1e-3 : 50);
+        velocity[p] = any(what == at_rest ? 0 : what == sticking ? 1e-4 : 1);
+      }
+      const double sum = radii[a] + radii[b];
+      const Vec3 n = what == just_touching ? Vec3{0, 0, 1} : normalized(any(1));
+      const double distance = what == apart ? sum * (1.001 + 0.5 * std::abs(u(random)))
+                              : what == at_one_place ? 0 : what == just_touching ? sum : sum * (1 - 0.02 * std::abs(u(random)));
+      position[b] = what == just_touching || what == at_one_place ? Vec3{} : space.wrap(any(0.5 * edge) + 0.5 * edge * Vec3{1, 1, 1});
+      position[a] = what == just_touching || what == at_one_place ? distance * n : space.wrap(position[b] + distance * n);
+      if (what == flying_apart) velocity[a] = velocity[b] + 3.0 * n;
+      start.spring[k] = any(what == at_rest || what == sticking ? 1e-9 : 1e-3);
+      start.rolling[k] = any(what == at_rest || what == sticking ? 1e-9 : 1e-2);
+      start.force[k] = any(1), start.torque[k] = any(1), start.arm_ratio[k] = u(random);
+    }
+  }
+
+  template <class P> Results after(const P& pairs, VectorPath path, std::size_t first, std::size_t last) const {
+    Results r = start;
+    pair_loop<P>(path)(pairs, {i.data(), j.data(), position.data(), velocity.data(), spin.data(), radii.data(), masses.data(),
+                               material.data(), r.force.data(), r.torque.data(), r.arm_ratio.data(), r.spring.data(), r.rolling.data()},
+                       first, last);
+    return r;
+  }
+};
+
+template <class V> bool same_bits(const Buffer<V>& a, const Buffer<V>& b, std::size_t first, std::size_t last) {
+  return std::memcmp(a.data() + first, b.data() + first, (last - first) * sizeof(V)) == 0;
+}
+
+// Whether all columns agree in these rows; the first that does not is told.
+testing::AssertionResult same_bits(const Results& a, const Results& b, std::size_t first, std::size_t last) {
+  const auto check = [&](const char* name, const auto& x, const auto& y) -> testing::AssertionResult {
+    for (std::size_t k = first; k < last; ++k)
+      if (!same_bits(x, y, k, k + 1))
+        return testing::AssertionFailure() << name << " of contact " << k << ": " << testing::PrintToString(x[k]) << ", "
+                                           << testing::PrintToString(y[k]);
+    return testing::AssertionSuccess();
+  };
+  for (const auto& result : {check("force", a.force, b.force), check("torque", a.torque, b.torque),
+                             check("spring", a.spring, b.spring), check("rolling", a.rolling, b.rolling),
+                             check("arm_ratio", a.arm_ratio, b.arm_ratio)})
+    if (!result) return result;
+  return testing::AssertionSuccess();
+}
+
+// No friction between some, no damping between others.
+VariousParticles three_materials() {
+  VariousParticles p{3, {}};
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b) {
+      LawCoefficients k = stiff;
+      k.normal_stiffness *= 1 + a + b, k.tangential_stiffness *= 1 + a * b;
+      if (a == b) k.friction = k.rolling_friction = 0;
+      if (a + b == 3) k.normal_damping = k.tangential_damping = 0;
+      p.coefficients.push_back(k);
+    }
+  return p;
+}
+
+template <class Law, class Kinds, class Space> void compare(const Kinds& particles, const Space& space) {
+  constexpr std::size_t guard = 20, longest = 41;
+  const Pairs pairs(guard + longest + guard, space, !Kinds::alike, 5);
+  const std::size_t all = pairs.i.size();
+  for (const double h : {time_step, 0.0}) {
+    const PairForces<Law, Kinds, Space> forces{{}, particles, space, h};
+    for (const std::size_t first : {0, 3, 8, 13, 20})
+      for (std::size_t count = 0; count < longest; ++count) {
+        const std::size_t last = first + count;
+        const Results want = pairs.after(forces, VectorPath::scalar, first, last);
+        for (const VectorPath path : vector_paths()) {
+          const Results got = pairs.after(forces, path, first, last);
+          ASSERT_TRUE(same_bits(got, want, first, last)) << name_of(path) << " [" << first << ", " << last << ") h " << h;
+          ASSERT_TRUE(same_bits(got, pairs.start, 0, first)) << name_of(path) << " wrote in front of " << first;
+          ASSERT_TRUE(same_bits(got, pairs.start, last, all)) << name_of(path) << " wrote behind " << last;
+        }
+        if (!Law::rotates) ASSERT_TRUE(same_bits(want.torque, pairs.start.torque, 0, all));
+        if (!Law::rotates || Kinds::alike) ASSERT_TRUE(same_bits(want.arm_ratio, pairs.start.arm_ratio, 0, all));
+        if (!Law::has_tangential) ASSERT_TRUE(same_bits(want.spring, pairs.start.spring, 0, all));
+        if (!Law::has_rolling) ASSERT_TRUE(same_bits(want.rolling, pairs.start.rolling, 0, all));
+      }
+  }
+}
+
+template <class Law> void compare_everywhere() {
+  const PeriodicSpace box{{0, 0, 0}, {edge, edge, std::numeric_limits<double>::infinity()}};
+  const AlikeParticles alike{radius, mass, stiff};
+  compare<Law>(alike, OpenSpace{});
+  compare<Law>(alike, box);
+  compare<Law>(three_materials(), OpenSpace{});
+  compare<Law>(three_materials(), box);
+}
+
+TEST(PairForces, EveryPathGivesTheBitsOfTheScalarOne) {
+#define SKRED_COMPARE(LAW) { SCOPED_TRACE(#LAW); compare_everywhere<LAW>(); }
+  SKRED_FOR_EACH_LAW(SKRED_COMPARE)
+}
+
+// The pairs above hold every case, on the scalar path: what the others are compared with makes sense.
+TEST(PairForces, CasesOfThePairs) {
+  const Pairs pairs(4000, OpenSpace{}, false, 5);
+  const PairForces<FrictionAndRolling<true>, AlikeParticles, OpenSpace> forces{{}, {radius, mass, stiff}, {}, time_step};
+  const Results r = pairs.after(forces, VectorPath::scalar, 0, 4000);
+  int slid = 0, stuck = 0, cut_off = 0, rolled_off = 0;
+  std::array<int, kinds> seen{};
+  for (std::size_t k = 0; k < 4000; ++k) {
+    ++seen[pairs.kind[k]];
+    if (pairs.kind[k] == apart || pairs.kind[k] == just_touching) {
+      EXPECT_TRUE(r.force[k] == Vec3{} && r.torque[k] == Vec3{} && r.spring[k] == Vec3{} && r.rolling[k] == Vec3{}) << k;
+      continue;
+    }
+    const Vec3 branch = pairs.position[pairs.i[k]] - pairs.position[pairs.j[k]];
+    const Vec3 n = pairs.kind[k] == at_one_place ? Vec3{0, 0, 1} : normalized(branch);
+    ASSERT_TRUE(is_finite(r.force[k]) && is_finite(r.torque[k]) && is_finite(r.spring[k]) && is_finite(r.rolling[k])) << k;
+    const double normal = dot(r.force[k], n), tangential = norm(in_tangent_plane(r.force[k], n));
+    EXPECT_GE(normal, 0);
+    EXPECT_LE(tangential, stiff.friction * normal * (1 + 1e-9) + 1e-12);
+    EXPECT_LE(norm(r.rolling[k]), stiff.rolling_friction * 0.5 * radius * normal * (1 + 1e-9));
+    if (normal == 0) ++cut_off;
+    else if (tangential > stiff.friction * normal * (1 - 1e-9)) ++slid;
+    else ++stuck;
+    rolled_off += normal > 0 && norm(r.rolling[k]) > stiff.rolling_friction * 0.5 * radius * normal * (1 - 1e-9);
+  }
+  for (const int n : seen) EXPECT_GT(n, 200);
+  EXPECT_TRUE(slid > 200 && stuck > 200 && cut_off > 200 && rolled_off > 200) << slid << " " << stuck << " " << cut_off << " " << rolled_off;
+}
+
+}  // namespace
+}  // namespace skred
