@@ -3,6 +3,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <cstdint>
 #include <cstdlib>
 #include <new>
 #include <vector>
@@ -17,7 +18,7 @@ template <class V> struct Aligned {
 
   static constexpr std::size_t line = 64;                    // [bytes]
 
-  static constexpr std::size_t max_size() { return (PTRDIFF_MAX - 2 * huge) / sizeof(V); }   // what allocate() adds fits too
+  static constexpr std::size_t max_size() { return (PTRDIFF_MAX - 2 * line) / sizeof(V); }   // what allocate() adds fits too
 
   V* allocate(std::size_t n) {
     const std::size_t bytes = n * sizeof(V) + sizeof(double);
