@@ -33,6 +33,7 @@ template <class Space> Pairs listed(World& w, const Space& space, ContactColumns
     std::vector<Index> partners;                             // lower ids first
     for (Index k = in.begin_lower.data[p]; k < in.end_lower.data[p]; ++k, ++lower) {
       EXPECT_EQ(c.j.data[in.lower.data[k]], p);
+      EXPECT_EQ(in.lower_of.data[k], p);
       partners.push_back(id[c.i.data[in.lower.data[k]]]);
     }
     for (Index k = in.first.data[p]; k < in.first.data[p + 1]; ++k) {
@@ -42,6 +43,7 @@ template <class Space> Pairs listed(World& w, const Space& space, ContactColumns
       EXPECT_TRUE(out.insert({id[p], c.partner.data[k]}).second) << "listed twice";
     }
     EXPECT_TRUE(std::is_sorted(partners.begin(), partners.end()));
+    EXPECT_TRUE(p % incidence_block == 0 || in.begin_lower.data[p] == in.end_lower.data[p - 1]) << "a gap within a block";
   }
   EXPECT_EQ(lower, c.rows());
   EXPECT_EQ(out.size(), c.rows());

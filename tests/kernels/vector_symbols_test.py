@@ -22,8 +22,9 @@ def main(nm, build_type, path, *objects):
         kind, _, name = symbol[17:].partition(" ")              # after the address
         if kind not in ("W", "V", "u"):
             continue
-        loops += loop in name and "skred::PairForces<" in name
-        if loop not in name and PACKS[path] not in name and name not in NOT_CODE:
+        ours = loop in name and ("skred::PairForces<" in name or "skred::ContactSummation<" in name)
+        loops += ours
+        if not ours and PACKS[path] not in name and name not in NOT_CODE:
             shared.append(name)
     assert loops, f"no loop of {path} in {objects}"
     if shared:
