@@ -218,7 +218,7 @@ const Section<Scene::SearchSpec>& search_keys() {
   using S = Scene::SearchSpec;
   static const Section<S> section{{
       key("skin", Or<Number>{"auto", {"m", non_negative}}, &S::skin,
-          "Contacts are listed up to this gap. No result depends on it."),
+          "Neighbours are searched for up to this gap at most; auto gives slow particles less. No result depends on it."),
       key("cell_size", Or<Number>{"auto", {"m", positive}}, &S::cell_size,
           "Edge of the cells of the search grid. No result depends on it."),
       key("reorder_every", Or<Integer<int>>{"auto", {}}, &S::reorder_every,
