@@ -10,6 +10,7 @@
 #include <immintrin.h>
 #endif
 #include "engine/vec3.h"
+#include "engine/vector_path.h"
 
 namespace skred {
 
@@ -19,8 +20,7 @@ template <class R> inline constexpr int lanes = stdx::is_simd_v<R> ? int(sizeof(
 
 // Any rows of a table, one per lane; the first `count` count.
 template <class R> struct AnyRows {
-  static constexpr int width = lanes<R>;
-  std::size_t row[width];
+  std::size_t row[lanes<R>];
   int count;
   std::size_t operator[](int k) const { return row[k]; }
 };
@@ -30,12 +30,6 @@ template <class R> struct FullRange {
   static constexpr int count = lanes<R>;
   std::size_t first;
   std::size_t operator[](int k) const { return first + std::size_t(k); }
-  AnyRows<R> at(const auto* rows) const {
-    AnyRows<R> out;
-    out.count = count;
-    for (int k = 0; k < count; ++k) out.row[k] = rows[first + std::size_t(k)];
-    return out;
-  }
 };
 
 // ... or fewer at the end of a range: the last is repeated for reading, and left out when writing.
@@ -45,13 +39,15 @@ template <class R> struct PartOfRange {
   PartOfRange(std::size_t first_row, std::size_t last)
       : first(first_row), count(last - first_row < std::size_t(lanes<R>) ? int(last - first_row) : lanes<R>) {}
   std::size_t operator[](int k) const { return first + std::size_t(k < count ? k : count - 1); }
-  AnyRows<R> at(const auto* rows) const {
-    AnyRows<R> out;
-    out.count = count;
-    for (int k = 0; k < lanes<R>; ++k) out.row[k] = rows[(*this)[k]];
-    return out;
-  }
 };
+
+// The rows that a column of indices names there.
+template <class R, class Rows> AnyRows<R> rows_named(const auto* column, const Rows& at) {
+  AnyRows<R> out;
+  out.count = at.count;
+  for (int k = 0; k < lanes<R>; ++k) out.row[k] = column[at[k]];
+  return out;
+}
 
 // Numbers of these rows, by `value(row)`.
 template <class R, class Rows, class Value> R gather(const Rows& at, const Value& value) {
@@ -61,11 +57,6 @@ template <class R, class Rows, class Value> R gather(const Rows& at, const Value
 template <class R, class Rows> R load(const double* column, const Rows& at) {
   return gather<R>(at, [&](std::size_t row) { return column[row]; });
 }
-
-// Registers as the compiler sees them, for shuffles.
-typedef double Two __attribute__((vector_size(16)));
-typedef double Four __attribute__((vector_size(32)));
-typedef double Eight __attribute__((vector_size(64)));
 
 // Vectors of these rows. Reads one number beyond each, for which a Buffer keeps room.
 template <class R, class Rows> Vec3T<R> load(const Vec3* column, const Rows& at) {

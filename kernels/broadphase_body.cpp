@@ -186,10 +186,10 @@ void ContactGeometryBody::operator()(Parallel parallel, Read<&BodyContacts::part
   for (std::size_t g = 0; g < shape.size(); ++g) world[g] = pose[body[g]] * local[g];
   parallel(geometry.size(), 1024, [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) {
+      if (slot[c] != 0) continue;                            // a mesh: its first slot does it for all
       const Index g = geometry[c], p = particle[c];
       const Vec3 x = to_local(world[g], position[p]);
-      if (const Mesh* mesh = mesh_of(shape[g])) {            // its first slot does it for all
-        if (slot[c] != 0) continue;
+      if (const Mesh* mesh = mesh_of(shape[g])) {
         const MeshContacts touched = mesh->touch(x, radius[p], triangle.subspan(first_triangle[c], triangle_count[c]));
         assign_slots(touched, world[g], &overlap[c], &normal[c]);
         continue;

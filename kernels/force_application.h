@@ -19,7 +19,6 @@ struct Moments {
 };
 
 // Sums of the contacts of a block of particles, x y z and a number of no use.
-typedef double Four __attribute__((vector_size(32)));
 struct ContactSums { Four force[incidence_block], torque[incidence_block]; };
 
 // The columns that the sums are made of; null where the effect is out.
@@ -36,15 +35,7 @@ template <Moments moments> struct ContactSummation {
 };
 
 template <Moments moments> SumContacts contact_summation(VectorPath path) {
-  using Sum = ContactSummation<moments>;
-  switch (path) {
-#if defined(__x86_64__)
-    case VectorPath::avx512: return &Sum::template run<VectorPath::avx512>;
-    case VectorPath::avx2: return &Sum::template run<VectorPath::avx2>;
-    case VectorPath::sse2: return &Sum::template run<VectorPath::sse2>;
-#endif
-    default: return &Sum::template run<VectorPath::scalar>;
-  }
+  return for_path(path, []<VectorPath p>() -> SumContacts { return &ContactSummation<moments>::template run<p>; });
 }
 
 template <bool contacts, bool body_contacts, Moments moments> struct ForceApplicationParticle {

@@ -40,7 +40,7 @@ template <class R, class Lanes> LawCoefficientsT<R> coefficients(const VariousPa
 
 template <class R, class Pairs, class Lanes> PairState<R> state_of(const Pairs& pairs, const PairColumns& c, const Lanes& row) {
   using std::sqrt;
-  const auto i = row.at(c.i), j = row.at(c.j);
+  const auto i = rows_named<R>(c.i, row), j = rows_named<R>(c.j, row);
   const auto p = radii_and_mass<R>(pairs.kinds, c, i, j);
 
   const Vec3T<R> branch = pairs.space.shortest(load<R>(c.position, i) - load<R>(c.position, j));

@@ -51,14 +51,7 @@ template <class LawT, class KindsT, class SpaceT> struct PairForces {
 
 template <class P> using PairLoop = void (*)(const P&, const PairColumns&, std::size_t first, std::size_t last);
 template <class P> PairLoop<P> pair_loop(VectorPath path) {
-  switch (path) {
-#if defined(__x86_64__)
-    case VectorPath::avx512: return &P::template run<VectorPath::avx512>;
-    case VectorPath::avx2: return &P::template run<VectorPath::avx2>;
-    case VectorPath::sse2: return &P::template run<VectorPath::sse2>;
-#endif
-    default: return &P::template run<VectorPath::scalar>;
-  }
+  return for_path(path, []<VectorPath p>() -> PairLoop<P> { return &P::template run<p>; });
 }
 
 template <class Law, class Kinds, class Space> struct ForceCalculationParticleParticle {

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
-#include <unistd.h>
 #include <fmt/format.h>
+#include "engine/io/temporary_folder.h"
 #include "scenes/build.h"
 #include "scenes/errors.h"
 #include "scenes/prepare.h"
@@ -58,17 +58,19 @@ std::string graph_dot(const Scene& scene) {
 }
 
 std::string graph_svg(const Scene& scene) {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path();
-  std::string name = (folder / "skred-graph-XXXXXX").string();   // mkstemp(3) fills the X in
-  const int file = mkstemp(name.data());
-  if (file < 0) throw UsageError("graph: no temporary file can be made in " + folder.string());
-  close(file);
+  const TemporaryFolder folder = [] {
+    try {
+      return TemporaryFolder("skred-graph");
+    } catch (const std::filesystem::filesystem_error& e) {
+      throw UsageError("graph: no temporary file can be made in " + e.path1().parent_path().string());
+    }
+  }();
+  const std::string name = folder / "graph.dot";
   std::ofstream(name) << graph_dot(scene);
   std::string svg;
   FILE* pipe = popen(("dot -Tsvg '" + name + "' 2>/dev/null").c_str(), "r");
   for (char buffer[4096]; pipe && std::fgets(buffer, sizeof buffer, pipe);) svg += buffer;
   const bool drawn = pipe && pclose(pipe) == 0 && !svg.empty();
-  std::remove(name.c_str());
   if (!drawn) throw UsageError("graph: --format svg needs the program 'dot' (Debian package graphviz); --format dot needs nothing");
   return svg;
 }

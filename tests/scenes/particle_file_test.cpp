@@ -16,7 +16,7 @@ Scene scene_of(const std::string& path, std::optional<double> radius = 0.01, con
 }
 
 struct ParticleFiles : testing::Test {
-  TemporaryFolder folder;
+  SceneFolder folder;
   ParticleSet read(const std::string& text, std::optional<double> radius = 0.01) {
     return make_particles(scene_of(folder.write("p.csv", text), radius));
   }

@@ -201,7 +201,7 @@ TEST(BadScene, MissingFiles) {
 }
 
 TEST(BadScene, Meshes) {
-  const TemporaryFolder folder;
+  const SceneFolder folder;
   folder.write("bad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 1 2\n");
   folder.write("empty.obj", "# nothing\n");
   folder.write("good.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include "engine/io/temporary_folder.h"
 #include "scenes/diagnostic.h"
 #include "scenes/read_scene.h"
 
@@ -28,13 +29,7 @@ inline std::string errors_of(const std::string& text, const ReadOptions& options
 }
 
 // A folder for the files of one test, gone afterwards.
-struct TemporaryFolder {
-  std::filesystem::path path;
-  TemporaryFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "skred-scenes-XXXXXX").string();
-    path = mkdtemp(pattern.data());
-  }
-  ~TemporaryFolder() { std::filesystem::remove_all(path); }
+struct SceneFolder : TemporaryFolder {
   std::string write(const std::string& name, const std::string& text) const {
     std::ofstream(path / name, std::ios::binary) << text;
     return (path / name).string();

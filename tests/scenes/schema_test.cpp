@@ -51,7 +51,7 @@ TEST(ResolvedScene, ShippedScenesReadBack) {
 }
 
 TEST(ResolvedScene, EveryKeyReadsBack) {
-  const TemporaryFolder folder;
+  const SceneFolder folder;
   folder.write("p.csv", "x,y,z\n1,2,3\n");
   folder.write("q.csv", "x,y,z,material\n1,2,9,b\n");
   expect_round_trip(parse_scene(R"(

@@ -1,4 +1,5 @@
 // tests/system/completion_test.cpp - the completion scripts of a small command line, exercised in the shells themselves.
+#include "engine/io/temporary_folder.h"
 #include "scenes/completion.h"
 #include <gmock/gmock.h>
 #include <cstdio>
@@ -25,7 +26,8 @@ struct Completion : testing::Test {
   int count = 0;
   double time = 0;
   bool quiet = false;
-  std::filesystem::path folder;
+  TemporaryFolder own;
+  const std::filesystem::path& folder = own.path;
 
   Completion() {
     auto* run = app.add_subcommand("run", "run a scene: the user's [choice]");
@@ -45,12 +47,9 @@ struct Completion : testing::Test {
     list->add_subcommand("units", "units")->add_option("--of", text, "kind")->type_name("time|mass");
     app.add_subcommand("internal", "not shown")->group("");
 
-    char name[] = "/tmp/completion_test_XXXXXX";
-    folder = mkdtemp(name);
     std::filesystem::create_directory(folder / "sub");
     std::ofstream(folder / "a.yaml"), std::ofstream(folder / "b.txt");
   }
-  ~Completion() override { std::filesystem::remove_all(folder); }
 
   // Lines that `program FILE` prints in the folder, FILE holding `script`; a failing shell is a failed test.
   std::vector<std::string> lines_of(const std::string& program, const std::string& script) const {

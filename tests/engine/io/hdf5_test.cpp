@@ -14,7 +14,6 @@
 
 using namespace skred;
 using faults::message_of;
-using sample::TemporaryFolder;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;

@@ -11,7 +11,6 @@
 
 using namespace skred;
 using faults::message_of;
-using sample::TemporaryFolder;
 using testing::AllOf;
 using testing::HasSubstr;
 namespace fs = std::filesystem;

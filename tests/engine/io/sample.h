@@ -1,9 +1,8 @@
 // tests/engine/io/sample.h - a small made-up run: five particles, four bodies, frames that any test can recompute.
 #pragma once
-#include <filesystem>
 #include <string>
-#include <unistd.h>
 #include "engine/io/frame.h"
+#include "engine/io/temporary_folder.h"
 
 namespace skred::sample {
 
@@ -48,17 +47,5 @@ inline Frame frame(int k, const FrameHeader& h) {
   }
   return f;
 }
-
-// A folder of its own for every test, removed at the end.
-struct TemporaryFolder {
-  std::filesystem::path path = std::filesystem::temp_directory_path() / ("skred_io_XXXXXX");
-  TemporaryFolder() {
-    std::string name = path.string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make " + name);
-    path = name;
-  }
-  ~TemporaryFolder() { std::filesystem::remove_all(path); }
-  std::string operator/(const std::string& name) const { return (path / name).string(); }
-};
 
 }  // namespace skred::sample

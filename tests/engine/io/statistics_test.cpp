@@ -10,7 +10,6 @@
 
 using namespace skred;
 using faults::message_of;
-using sample::TemporaryFolder;
 using testing::ElementsAre;
 using testing::HasSubstr;
 

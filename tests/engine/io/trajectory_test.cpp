@@ -12,7 +12,6 @@
 
 using namespace skred;
 using faults::message_of;
-using sample::TemporaryFolder;
 using testing::AllOf;
 using testing::Each;
 using testing::ElementsAre;
