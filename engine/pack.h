@@ -16,6 +16,10 @@ namespace skred {
 
 namespace stdx = std::experimental;
 
+// The number type of a path, in a translation unit that is compiled for it.
+template <VectorPath path> struct NumberOf { using type = stdx::native_simd<double>; };
+template <> struct NumberOf<VectorPath::scalar> { using type = double; };
+
 template <class R> inline constexpr int lanes = stdx::is_simd_v<R> ? int(sizeof(R) / sizeof(double)) : 1;
 
 // Any rows of a table, one per lane; the first `count` count.

@@ -3,22 +3,13 @@
 // Every table lists its columns in `columns()`, so that reordering, memory accounts and output are written once.
 #pragma once
 #include <cstdint>
-#include <limits>
 #include <tuple>
-#include "engine/buffer.h"
+#include "engine/column.h"
+#include "engine/contact_rows.h"
 #include "engine/geometry/shape.h"
 #include "engine/vec3.h"
 
 namespace skred {
-
-template <class V> struct Column {
-  const char* name;             // shown in the graph, the timeline and the output files
-  const char* unit;             // SI; "1" if dimensionless
-  Buffer<V> data = {};
-};
-
-using Index = std::uint32_t;    // a row of a table
-inline constexpr Index no_index = std::numeric_limits<Index>::max();
 
 // One row per sphere. Rows are re-sorted in space now and then; `id` stays.
 struct Particles {
@@ -219,6 +210,46 @@ struct CellGrid {
   }
 };
 
+// What the solver of nonsmooth DEM moves: a row per particle, then one per row of BodyContacts, the place of the body that is touched.
+struct SolverBodies {
+  Column<SolverBody> state{"solver_state", "m/s, 1/kg, rad/s, 1/(kg m^2)"};
+  std::size_t rows() const { return state.data.size(); }
+  static constexpr auto columns() { return std::tuple{&SolverBodies::state}; }
+};
+
+// Cubes of space with the contacts of the particles in them, by colour: those of colour c are the blocks
+// [first_of_colour[c], first_of_colour[c+1]) and have no particle in common (kernels/constraint_setup.h).
+inline constexpr std::size_t block_colours = 8;
+struct ContactBlocks {
+  Column<Buffer<ContactGroup>> groups{"contact_groups", "1"};
+  Column<Buffer<GroupSource>>  sources{"group_sources", "1"};
+  Column<SweepChange>          change{"sweep_change", "N s"};
+  Column<Index>                contacts{"contacts_of_block", "1"};
+  Column<Index>                impacts{"impacts_of_block", "1"};   // contacts that the impact stage turns round
+  Column<Index>                first_of_colour{"first_of_colour", "1"};
+  std::size_t rows() const { return groups.data.size(); }
+  static constexpr auto columns() {
+    return std::tuple{&ContactBlocks::groups, &ContactBlocks::sources, &ContactBlocks::change, &ContactBlocks::contacts,
+                      &ContactBlocks::impacts, &ContactBlocks::first_of_colour};
+  }
+};
+
+// One row: how the solver did.
+struct Solver {
+  Column<std::int64_t> contacts{"contacts_solved", "1", {0}};      // with rows in this step
+  Column<std::int64_t> impacts{"impacts", "1", {0}};               // of them turned round by the impact stage
+  Column<std::int64_t> sweeps{"sweeps", "1", {0}};                 // of the contact stage in this step ...
+  Column<double>       residual{"residual", "1", {0}};             // ... and what its last one still changed, of all impulses
+  Column<std::int64_t> impact_sweeps{"impact_sweeps", "1", {0}};
+  Column<double>       impact_residual{"impact_residual", "1", {0}};
+  Column<std::int64_t> unsolved{"steps_unsolved", "1", {0}};       // steps so far that did not reach the tolerance
+  std::size_t rows() const { return 1; }
+  static constexpr auto columns() {
+    return std::tuple{&Solver::contacts, &Solver::impacts, &Solver::sweeps, &Solver::residual, &Solver::impact_sweeps,
+                      &Solver::impact_residual, &Solver::unsolved};
+  }
+};
+
 // One row: the clock. Time is an integer times the time step, never a sum.
 struct Clock {
   Column<std::int64_t> step{"step", "1", {0}};
@@ -248,6 +279,6 @@ struct Search {
 };
 
 using World = std::tuple<Particles, Neighbours, Neighbourhood, Contacts, PreviousContacts, Incidence, BodyContacts, PreviousBodyContacts, BodyIncidence, Triangles,
-                         Bodies, Geometries, CellGrid, Clock, Search>;
+                         Bodies, Geometries, CellGrid, SolverBodies, ContactBlocks, Solver, Clock, Search>;
 
 }  // namespace skred

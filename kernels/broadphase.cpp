@@ -70,7 +70,9 @@ void Broadphase<Space>::operator()(Parallel parallel, Read<&Search::due> due, Re
                                    Resize<Neighbourhood> neighbourhood) const {
   if (!due[0]) return;
   const std::size_t n = position.size();
-  const CellLayout layout = fit_cells(position, cell, space);
+  double widest = 0;                                         // nonsmooth DEM may need margins for a far step
+  for (std::size_t p = 0; p < n; ++p) widest = std::max(widest, radius[p] + margin[p]);
+  const CellLayout layout = fit_cells(position, std::max(cell, 2 * widest), space);
   sort_into_cells(parallel, layout, position, radius, margin, *grid.table);
   const auto& start = grid->start.data;
   const auto& order = grid->order.data;

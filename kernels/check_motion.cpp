@@ -12,6 +12,7 @@ struct Seen {                    // of one chunk of particles
   Trouble trouble = Trouble::none;
   Index culprit = no_index;
   std::int64_t outside = 0;
+  double speed2 = 0;             // greatest, where the step ahead is watched
 
   void blame(Trouble t, Index id) {              // the lowest id in the gravest trouble
     if (trouble != Trouble::none && (trouble < t || (trouble == t && culprit < id))) return;
@@ -39,7 +40,8 @@ void CheckMotion<Space>::operator()(Parallel parallel, Read<&Particles::id> id, 
                                     Read<&Particles::velocity> velocity, Read<&Particles::radius> radius,
                                     Update<&Particles::searched> searched, Update<&Particles::search_margin> search_margin,
                                     Update<&Particles::listed> listed, Update<&Particles::list_margin> list_margin,
-                                    Read<&Bodies::motion> motion, Read<&Bodies::pose> pose, Read<&Bodies::searched> pose_searched,
+                                    Read<&Bodies::motion> motion, Read<&Bodies::pose> pose, Read<&Bodies::velocity> wall_velocity,
+                                    Read<&Bodies::angular_velocity> wall_spin, Read<&Bodies::searched> pose_searched,
                                     Read<&Geometries::body> body, Read<&Geometries::shape> shape, Read<&Geometries::local> local,
                                     Update<&Search::due> due, Write<&Search::list_due> list_due, Update<&Search::count> count,
                                     Update<&Search::listings> listings, Update<&Search::reach> reach, Write<&Search::trouble> trouble,
@@ -58,14 +60,21 @@ void CheckMotion<Space>::operator()(Parallel parallel, Read<&Particles::id> id, 
     return dot(velocity[p], velocity[p]) * time_step * time_step <= reach_of_step * reach_of_step;
   };
   const auto in_margin = [&](std::size_t p) { return moved2(p, listed) <= list_margin[p] * list_margin[p]; };
+  // Nonsmooth DEM finds what a step will touch before it is made: its particles may go as far as they like, if the lists know.
+  const auto goes_on_well = [&](std::size_t p) { return std::sqrt(moved2(p, listed)) + time_step * norm(velocity[p]) + ahead.fall <= list_margin[p]; };
 
   std::vector<Seen> seen(chunks);
   parallel.chunks(n, chunk, [&](std::size_t k, std::size_t begin, std::size_t end) {
     Seen s;
     bool all_well = true, all_in_margin = true;              // no branch while all is well; NaN fails every comparison
-    for (std::size_t p = begin; p < end; ++p) {
+    for (std::size_t p = begin; p < end && !ahead.watched; ++p) {
       all_in_margin &= in_margin(p);
       all_well &= sound_speed(p) & (!bounded || inside(bounds, position[p]));
+    }
+    for (std::size_t p = begin; p < end && ahead.watched; ++p) {
+      all_in_margin &= goes_on_well(p);
+      all_well &= !bounded || inside(bounds, position[p]);
+      s.speed2 = std::max(s.speed2, dot(velocity[p], velocity[p]));
     }
     s.left_margin = !all_in_margin;
     for (std::size_t p = begin; p < end && !(all_well && all_in_margin); ++p) {
@@ -73,7 +82,7 @@ void CheckMotion<Space>::operator()(Parallel parallel, Read<&Particles::id> id, 
         s.blame(Trouble::not_finite, id[p]);
         continue;
       }
-      if (!sound_speed(p)) s.blame(Trouble::too_fast, id[p]);
+      if (!ahead.watched && !sound_speed(p)) s.blame(Trouble::too_fast, id[p]);
       if (bounded && !inside(bounds, position[p])) {
         ++s.outside;
         if (stop_outside) s.blame(Trouble::out_of_bounds, id[p]);
@@ -86,15 +95,23 @@ void CheckMotion<Space>::operator()(Parallel parallel, Read<&Particles::id> id, 
   for (const Seen& s : seen) {
     all.left_margin |= s.left_margin;
     all.outside += s.outside;
+    all.speed2 = std::max(all.speed2, s.speed2);
     if (s.trouble != Trouble::none) all.blame(s.trouble, s.culprit);
   }
+  // A step that takes particles far can also take them there at second hand, pushed by a faster one: then everyone needs wide margins.
+  const double farthest_step = 2 * time_step * std::sqrt(all.speed2) + ahead.fall;
+  const bool far = ahead.watched && farthest_step > margins.largest;
+  if (far && farthest_step > ahead.widest)
+    for (std::size_t p = 0; p < n; ++p)
+      if (dot(velocity[p], velocity[p]) == all.speed2) all.blame(Trouble::too_fast, id[p]);
   double walls_moved = 0;
   for (std::size_t g = 0; g < body.size() && !first; ++g) {
     const Index b = body[g];
     if (motion[b] == Motion::fixed) continue;
     const double lever = std::min(norm(local[g].position) + outer_radius(shape[g]),
                                   reach[0] + 2 * margins.largest + norm(pose_searched[b].position));   // a plane has no end; the particles do
-    walls_moved = std::max(walls_moved, surface_moved(pose[b], pose_searched[b], lever));
+    const double to_come = ahead.watched ? time_step * (norm(wall_velocity[b]) + norm(wall_spin[b]) * lever) : 0;
+    walls_moved = std::max(walls_moved, surface_moved(pose[b], pose_searched[b], lever) + to_come);
   }
   trouble[0] = all.trouble;
   culprit[0] = all.culprit;
@@ -102,11 +119,12 @@ void CheckMotion<Space>::operator()(Parallel parallel, Read<&Particles::id> id, 
 
   const bool sound = all.trouble != Trouble::not_finite;     // else there is nowhere to look for partners; the run ends here
   due[0] = sound && (first || walls_moved > margins.walls);
-  list_due[0] = sound && (due[0] || all.left_margin);
+  list_due[0] = sound && (due[0] || all.left_margin || far);
   if (!list_due[0]) return;
 
   const auto margin = [&](std::size_t p, double steps, double rest) {
-    return std::min(rest + steps * time_step * norm(velocity[p]), margins.largest);
+    const double step = time_step * norm(velocity[p]), needed = !ahead.watched ? 0 : far ? farthest_step : step + ahead.fall;
+    return std::max(needed, std::min(rest + steps * step, margins.largest));
   };
   std::vector<char> leaves(chunks, 0);
   parallel.chunks(n, chunk, [&](std::size_t k, std::size_t begin, std::size_t end) {

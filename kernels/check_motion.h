@@ -15,8 +15,15 @@ namespace skred {
 struct Margins {
   double list_steps, list_rest;
   double search_steps, search_rest;
-  double largest;                // [m] > 0 no margin is wider
+  double largest;                // [m] > 0 no margin is wider, but one that the step ahead needs
   double walls;                  // [m] of the surfaces of moving bodies, at the search
+};
+
+// What a step needs to know of the motion that it is about to make. Smooth DEM: nothing, it has moved already.
+struct StepAhead {
+  bool watched = false;          // lists must hold at the end of the step too
+  double fall = 0;               // [m] that gravity adds, h^2 |g|
+  double widest = std::numeric_limits<double>::infinity();   // [m] widest margin that the space allows
 };
 
 template <class Space> struct CheckMotion {
@@ -28,12 +35,13 @@ template <class Space> struct CheckMotion {
   bool bounded;
   Bounds bounds;                 // [m]
   bool stop_outside;             // a particle outside is trouble
+  StepAhead ahead;
 
   void operator()(Parallel parallel, Read<&Particles::id> id, Read<&Particles::position> position,
                   Read<&Particles::velocity> velocity, Read<&Particles::radius> radius, Update<&Particles::searched> searched,
                   Update<&Particles::search_margin> search_margin, Update<&Particles::listed> listed,
                   Update<&Particles::list_margin> list_margin, Read<&Bodies::motion> motion, Read<&Bodies::pose> pose,
-                  Read<&Bodies::searched> pose_searched, Read<&Geometries::body> body, Read<&Geometries::shape> shape,
+                  Read<&Bodies::velocity> wall_velocity, Read<&Bodies::angular_velocity> wall_spin, Read<&Bodies::searched> pose_searched, Read<&Geometries::body> body, Read<&Geometries::shape> shape,
                   Read<&Geometries::local> local, Update<&Search::due> due, Write<&Search::list_due> list_due,
                   Update<&Search::count> count, Update<&Search::listings> listings, Update<&Search::reach> reach,
                   Write<&Search::trouble> trouble, Write<&Search::culprit> culprit, Write<&Search::outside> outside) const;

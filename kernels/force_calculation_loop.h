@@ -99,10 +99,6 @@ template <class R, class Pairs> [[gnu::flatten]] void calculate_forces(const Pai
   }
 }
 
-// The number type of a path, in a translation unit that is compiled for it.
-template <VectorPath path> struct NumberOf { using type = stdx::native_simd<double>; };
-template <> struct NumberOf<VectorPath::scalar> { using type = double; };
-
 template <class Law, class Kinds, class Space> template <VectorPath path>
 void PairForces<Law, Kinds, Space>::run(const PairForces& pairs, const PairColumns& c, std::size_t first, std::size_t last) {
   calculate_forces<typename NumberOf<path>::type>(pairs, c, first, last);

@@ -1,5 +1,6 @@
 // The hot loops for one set of vector instructions: compiled once per path, with SKRED_PATH its name and the
 // compiler flags that go with it (CMakeLists.txt). Nothing here may be used by other translation units but run<SKRED_PATH>.
+#include "kernels/contact_sweep_loop.h"
 #include "kernels/force_application_loop.h"
 #include "kernels/force_calculation_loop.h"
 #include "engine/periodic.h"
@@ -22,5 +23,19 @@ SKRED_INSTANTIATE_SUM(true, false, false)
 SKRED_INSTANTIATE_SUM(true, false, true)
 SKRED_INSTANTIATE_SUM(true, true, false)
 SKRED_INSTANTIATE_SUM(true, true, true)
+
+#define SKRED_INSTANTIATE_SWEEP(...) \
+  template void ContactSweep<SweepKind{__VA_ARGS__, false}>::run<VectorPath::SKRED_PATH>(ContactGroup*, std::size_t, SolverBody*, double, SweepChange&); \
+  template void ContactSweep<SweepKind{__VA_ARGS__, true}>::run<VectorPath::SKRED_PATH>(ContactGroup*, std::size_t, SolverBody*, double, SweepChange&);
+SKRED_INSTANTIATE_SWEEP(true, false, false, false)           // impact, friction, rolling, limited
+SKRED_INSTANTIATE_SWEEP(true, true, false, false)
+SKRED_INSTANTIATE_SWEEP(false, false, false, false)
+SKRED_INSTANTIATE_SWEEP(false, false, false, true)
+SKRED_INSTANTIATE_SWEEP(false, false, true, false)
+SKRED_INSTANTIATE_SWEEP(false, false, true, true)
+SKRED_INSTANTIATE_SWEEP(false, true, false, false)
+SKRED_INSTANTIATE_SWEEP(false, true, false, true)
+SKRED_INSTANTIATE_SWEEP(false, true, true, false)
+SKRED_INSTANTIATE_SWEEP(false, true, true, true)
 
 }  // namespace skred

@@ -76,6 +76,8 @@ World build_world(const Scene& scene, const ParticleSet& set) {
 
 Model build_model(const Scene& scene) {
   Model m;
+  m.method = scene.method;
+  m.solver = scene.solver;
   m.gravity = scene.gravity;
   m.pairs = resolve_pairs(scene);
   m.normal_law = scene.contact.normal != NormalLaw::none;

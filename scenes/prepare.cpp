@@ -13,6 +13,7 @@ namespace skred {
 namespace {
 
 void check_restitution(const Scene& scene, const Model& model) {
+  if (scene.method == Method::ndem) return;         // impacts are turned round at once, with any restitution
   const std::size_t n = model.pairs.count;
   for (std::size_t a = 0; a < n; ++a)
     for (std::size_t b = a; b < n; ++b)
@@ -35,7 +36,8 @@ constexpr double most_steps = 1e15;                 // of a run: centuries, and 
 
 void choose_time_step(const Scene& scene, bool force, Prepared& p) {
   const double speed = scene.expected_speed.value_or(expected_speed(p.world, p.model));
-  p.advice = advise_time_step(p.world, p.model, speed);
+  p.advice = scene.method == Method::ndem ? advise_nonsmooth_time_step(p.world, p.model, speed, scene.overlap_tolerance)
+                                          : advise_time_step(p.world, p.model, speed);
   if (!std::isfinite(p.advice.step) || !(p.advice.step > 0) || !std::isfinite(p.advice.limit))
     throw SceneRefused(fmt::format("time_step: none can be found: {}; radii, speeds, gravity or moduli (in SI units) are beyond what "
                                    "numbers can hold", p.advice.reason));
@@ -72,6 +74,11 @@ std::string pair_text(const Scene& scene, const StartOverlap& s) {
 void check_start(const Scene& scene, Prepared& p) {
   const StartOverlap found = start_overlap(p.world, p.model);
   if (found.ratio <= scene.start.overlap_limit) return;
+  if (scene.method == Method::ndem && !scene.start.relax) {
+    p.notes.push_back(fmt::format("overlap at the start: {} by {:.3g} of the smaller radius; nonsmooth DEM pushes them apart "
+                                  "(solver.separation_speed bounds how fast)", pair_text(scene, found), found.ratio));
+    return;
+  }
   if (!scene.start.relax)
     throw SceneRefused(fmt::format("overlap at the start: {} by {:.3g} of the smaller radius, allowed {:.3g} "
                                    "(start.overlap_limit); `start: {{relax: true}}` pushes particles apart first",
@@ -97,17 +104,11 @@ void check_bounds(const Scene& scene, const World& world) {
 
 }  // namespace
 
-void require_method(const Scene& scene) {
-  if (scene.method == Method::ndem)
-    throw SceneRefused("method: nonsmooth DEM (ndem) is not in this version; smooth DEM (sdem) is");
-}
-
 std::int64_t steps_in(double interval, double time_step) {
   return std::max<std::int64_t>(1, std::llround(std::min(interval / time_step, most_steps)));
 }
 
 Prepared prepare(const Scene& scene, bool force_time_step) {
-  require_method(scene);
   const ParticleSet set = make_particles(scene);
   Prepared p{build_world(scene, set), build_model(scene), {}, {}, {}};
   check_restitution(scene, p.model);

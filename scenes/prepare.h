@@ -17,9 +17,6 @@ struct Prepared {
   std::vector<std::string> warnings;
 };
 
-// Throws SceneRefused for a method that this version does not have.
-void require_method(const Scene&);
-
 // Steps of `time_step` [s] in an interval [s], at least 1.
 std::int64_t steps_in(double interval, double time_step);
 

@@ -8,7 +8,7 @@ FrameHeader header_of(const Scene& scene, const Simulation& sim) {
   const Particles& p = std::get<Particles>(sim.world());
   FrameHeader h;
   h.scene = scene.name;
-  h.method = "sdem";
+  h.method = method_word(scene.method);
   h.software = "skred " SKRED_VERSION;
   h.time_step = sim.model().time_step;
   for (const Index r : rows_by_id(p)) {
@@ -93,6 +93,15 @@ StatisticsRow Recorder::row(const Measures& m) const {
   add("max_speed", "m/s", m.max_speed);
   add("max_overlap_ratio", "1", m.max_overlap_ratio);
   add("searches", "1", double(std::get<Search>(sim_.world()).count.data[0]));
+  if (scene_.method == Method::ndem) {
+    const Solver& s = std::get<Solver>(sim_.world());
+    add("solver_sweeps", "1", double(s.sweeps.data[0]));
+    add("solver_residual", "1", s.residual.data[0]);
+    add("impacts", "1", double(s.impacts.data[0]));
+    add("impact_sweeps", "1", double(s.impact_sweeps.data[0]));
+    add("impact_residual", "1", s.impact_residual.data[0]);
+    add("steps_unsolved", "1", double(s.unsolved.data[0]));
+  }
   for (std::size_t b = 0; b < m.loads.size(); ++b) {
     const std::string& body = scene_.bodies[b].name;
     const auto add_vector = [&](const char* what, const char* unit, const Vec3& v) {

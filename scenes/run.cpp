@@ -128,7 +128,7 @@ void count_for_trace(Run& r, const Measures& m) {
 nlohmann::json make_summary(const Run& r, const std::string& outcome, double wall, const Timeline::Totals& totals) {
   const std::size_t particles = std::get<Particles>(r.sim.world()).rows();
   const double steps = double(r.sim.steps_done());
-  return {{"scene", r.scene.name}, {"method", "sdem"}, {"outcome", outcome}, {"threads", r.sim.threads()},
+  return {{"scene", r.scene.name}, {"method", method_word(r.scene.method)}, {"outcome", outcome}, {"threads", r.sim.threads()},
           {"vector_path", name_of(r.sim.model().vector_path)}, {"particles", particles},
           {"bodies", std::get<Bodies>(r.sim.world()).rows()}, {"steps", r.sim.steps_done()}, {"time_step", r.sim.model().time_step},
           {"simulated_time", r.sim.time()}, {"wall_time", wall},
@@ -147,7 +147,7 @@ void write_pictures(const Run& r) {
   if (!r.options.trace.empty()) {
     TraceInfo info;
     info.scene = r.scene.name;
-    info.method = "SDEM";
+    info.method = r.scene.method == Method::ndem ? "NDEM" : "SDEM";
     info.software = "skred " SKRED_VERSION;
     info.processor = processor_name();
     info.other = {{"compiler", compiler_name()}, {"particles", std::to_string(std::get<Particles>(r.sim.world()).rows())}};
@@ -158,7 +158,7 @@ void write_pictures(const Run& r) {
   if (!r.options.timeline.empty()) {
     TimelineCaption c;
     c.scene = r.scene.name;
-    c.method = "SDEM";
+    c.method = r.scene.method == Method::ndem ? "NDEM" : "SDEM";
     c.processor = processor_name();
     c.particles = std::int64_t(std::get<Particles>(r.sim.world()).rows());
     c.contacts = std::int64_t(r.last.contacts + r.last.body_contacts);
@@ -211,7 +211,7 @@ bool is_in(const std::string& file, const std::filesystem::path& folder) {
 }  // namespace
 
 int run_scene(const Scene& scene, const RunOptions& options) {
-  const std::filesystem::path output = options.output.empty() ? OutputFolder::next_free("results/" + scene.name + "-sdem")
+  const std::filesystem::path output = options.output.empty() ? OutputFolder::next_free("results/" + scene.name + "-" + method_word(scene.method))
                                                               : std::filesystem::path(options.output);
   for (const std::string& file : {options.trace, options.timeline, options.summary})
     if (!file.empty() && !is_in(file, output)) check_writable(file);   // before the run rather than after it
@@ -224,7 +224,7 @@ int run_scene(const Scene& scene, const RunOptions& options) {
   prepared.model.vector_path = options.vector_path;
   Simulation sim(std::move(prepared.world), std::move(prepared.model), options.threads);
   const std::size_t particles = std::get<Particles>(sim.world()).rows();
-  log.info("skred {}: scene '{}', smooth DEM, {} particles, {} bodies with {} geometries", SKRED_VERSION, scene.name, particles,
+  log.info("skred {}: scene '{}', {}, {} particles, {} bodies with {} geometries", SKRED_VERSION, scene.name, method_title(scene.method), particles,
            std::get<Bodies>(sim.world()).rows(), std::get<Geometries>(sim.world()).rows());
   const auto with_reason = [](const std::string& reason) { return reason.empty() ? "" : " (auto: " + reason + ")"; };
   log.info("threads {}{}; vector path {}{}", sim.threads(), with_reason(options.threads_reason), name_of(sim.model().vector_path),

@@ -13,6 +13,7 @@
 #include <vector>
 #include "engine/geometry/shape.h"
 #include "engine/material.h"
+#include "tasks/method.h"
 
 namespace skred {
 
@@ -85,7 +86,8 @@ struct BodySpec {
   std::optional<Vec3> inertia;                 // dynamic [kg m^2]; default: of the one sphere, box or cylinder it is made of
 };
 
-enum class Method { sdem, ndem };
+inline const char* method_word(Method m) { return m == Method::ndem ? "ndem" : "sdem"; }
+inline const char* method_title(Method m) { return m == Method::ndem ? "nonsmooth DEM" : "smooth DEM"; }
 enum class NormalLaw { hertz, none };
 enum class TangentialLaw { spring, none };
 enum class RollingLaw { spring, none };
@@ -112,6 +114,8 @@ struct Scene {
   Vec3 gravity{0, 0, -9.81};
   bool all_effects = false;                          // `effects: all` keeps every effect, even where its parameter is zero
   ContactModel contact;
+  SolverOptions solver;                              // nonsmooth DEM
+  double overlap_tolerance = 0.05;                   // nonsmooth DEM: of the diameter, that the automatic step may let impacts reach
   std::array<PeriodicSpec, 3> periodic;
   std::optional<Bounds> bounds;
   OutOfBounds out_of_bounds = OutOfBounds::stop;

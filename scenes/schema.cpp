@@ -205,6 +205,28 @@ const Section<Scene::Start>& start_keys() {
   return section;
 }
 
+struct SolverKeys { SolverOptions options; double overlap_tolerance = Scene{}.overlap_tolerance; };
+
+const Section<SolverKeys>& solver_keys() {
+  using S = SolverKeys;
+  static const Section<S> section{{
+      nested<S>("iterations", Integer<int>{1}, [](auto& s) -> auto& { return s.options.iterations; }, "Most sweeps of the contact stage in a step."),
+      nested<S>("impact_iterations", Integer<int>{1}, [](auto& s) -> auto& { return s.options.impact_iterations; }, "Most sweeps of the impact stage in a step."),
+      nested<S>("tolerance", Number{"1", non_negative}, [](auto& s) -> auto& { return s.options.tolerance; },
+                "A sweep that changes less than this part of the sum of all impulses is the last; 0: all sweeps are made."),
+      nested<S>("warm_start", Flag{}, [](auto& s) -> auto& { return s.options.warm_start; }, "Start from the impulses of the last step."),
+      nested<S>("damping_steps", Number{"1", non_negative}, [](auto& s) -> auto& { return s.options.damping_steps; },
+                "Contacts relax within this many steps, or slower if their restitution says so."),
+      nested<S>("impact_speed", Or<Number>{"auto", {"m/s", non_negative}}, [](auto& s) -> auto& { return s.options.impact_speed; },
+                "Contacts that close faster are turned round by the impact stage; auto: 10 g times the step."),
+      nested<S>("separation_speed", Or<Number>{"none", {"m/s", positive}}, [](auto& s) -> auto& { return s.options.separation_speed; },
+                "Overlaps are not resolved faster than this."),
+      nested<S>("overlap_tolerance", Number{"1", positive}, [](auto& s) -> auto& { return s.overlap_tolerance; },
+                "What the fastest particle may go in an automatic step, as part of the smallest diameter."),
+  }};
+  return section;
+}
+
 const Section<Scene::Limits>& limit_keys() {
   using L = Scene::Limits;
   static const Section<L> section{{
@@ -269,6 +291,9 @@ const Section<Scene>& scene_keys() {
       key("effects", Word<bool>{{{"auto", false}, {"all", true}}}, &S::all_effects,
           "auto: leave out what the scene does not call for; all: keep every effect, even where its parameter is zero."),
       key("contact", Map<ContactModel>{contact_keys}, &S::contact, "Contact laws."),
+      property<S>("solver", Map<SolverKeys>{solver_keys}, [](const S& s) { return SolverKeys{s.solver, s.overlap_tolerance}; },
+                  [](S& s, const SolverKeys& k) { s.solver = k.options, s.overlap_tolerance = k.overlap_tolerance; },
+                  "Nonsmooth DEM: how its steps are solved."),
       key("periodic", Map<Periodic>{periodic_keys}, &S::periodic, "Periodic directions."),
       property<S>("bounds", Or<Map<BoundsKeys>>{"none", {bounds_keys}},
                   [](const S& s) -> std::optional<BoundsKeys> {

@@ -21,7 +21,6 @@ struct Shown {
 
  private:
   static World checked(const Scene& scene) {
-    require_method(scene);
     return build_world(scene, make_particles(scene));
   }
 };
@@ -37,8 +36,8 @@ std::string dot_of(Simulation& sim) {
 std::string graph_text(const Scene& scene) {
   Shown shown(scene);
   Task& task = shown.sim.task();
-  std::string out = fmt::format("scene '{}', smooth DEM: {} kernels\n\nkernels, in order (after: what each has to wait for, and the data)\n",
-                                scene.name, task.size());
+  std::string out = fmt::format("scene '{}', {}: {} kernels\n\nkernels, in order (after: what each has to wait for, and the data)\n",
+                                scene.name, method_title(scene.method), task.size());
   const auto edges = task.edges();
   for (std::size_t k = 0; k < task.size(); ++k) {
     std::string after;

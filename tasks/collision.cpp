@@ -1,9 +1,10 @@
-// tasks/collision.cpp - which particles may touch which, and the history they bring along. Shared by every method.
+// tasks/collision.cpp - what both methods share: which particles may touch which, the history they bring along, and their motion.
 #include "kernels/broadphase.h"
 #include "kernels/broadphase_body.h"
 #include "kernels/check_motion.h"
 #include "kernels/contact_hashing.h"
 #include "kernels/contact_listing.h"
+#include "kernels/integrate.h"
 #include "kernels/reorder.h"
 #include "tasks/steps.h"
 
@@ -12,33 +13,52 @@ namespace skred {
 namespace {
 
 template <class Space>
-void add_search(Task& task, const World& w, const Model& m, const Effects& e, double time_step, const Space& space) {
-  const bool torques = e.friction || e.rolling;
-  task.add(CheckMotion<Space>{space, margins_of(w, m), time_step, m.bounds.has_value(), m.bounds.value_or(Bounds{}), m.stop_outside});
+void add_search(Task& task, const World& w, const Model& m, const Effects& e, const ContactColumns& columns, double time_step, const Space& space) {
+  task.add(CheckMotion<Space>{space, margins_of(w, m), time_step, m.bounds.has_value(), m.bounds.value_or(Bounds{}), m.stop_outside, step_ahead(w, m)});
   task.add(Reorder{cell_of(w, m), m.reorder_every});
   if (!e.contacts) return;
   task.add(Broadphase<Space>{space, cell_of(w, m)});
-  task.add(ContactListing<Space>{space, {torques, e.friction, e.rolling, torques && !e.alike}});
+  task.add(ContactListing<Space>{space, columns});
+}
+
+template <template <bool, bool> class Hashing> void add_hashing(Task& task, const ContactColumns& columns) {
+  if (columns.spring && columns.rolling) task.add(Hashing<true, true>{});
+  else if (columns.spring) task.add(Hashing<true, false>{});
+  else if (columns.rolling) task.add(Hashing<false, true>{});
 }
 
 }  // namespace
 
-void add_collision(Task& task, const World& w, const Model& m, const Effects& e, double time_step) {
-  if (m.periodic) add_search(task, w, m, e, time_step, *m.periodic);
-  else add_search(task, w, m, e, time_step, OpenSpace{});
-  if (e.contacts) {
-    if (e.friction && e.rolling) task.add(ContactHashing<true, true>{});
-    else if (e.friction) task.add(ContactHashing<true, false>{});
-    else if (e.rolling) task.add(ContactHashing<false, true>{});
-  }
+void add_collision(Task& task, const World& w, const Model& m, const Effects& e, const ContactColumns& columns, double time_step) {
+  if (m.periodic) add_search(task, w, m, e, columns, time_step, *m.periodic);
+  else add_search(task, w, m, e, columns, time_step, OpenSpace{});
+  if (e.contacts) add_hashing<ContactHashing>(task, columns);
   if (e.bodies) {
-    task.add(BroadphaseBody{margins_of(w, m).walls, {e.rotation, e.friction, e.rolling}});
-    if (e.friction && e.rolling) task.add(ContactHashingBody<true, true>{});
-    else if (e.friction) task.add(ContactHashingBody<true, false>{});
-    else if (e.rolling) task.add(ContactHashingBody<false, true>{});
+    task.add(BroadphaseBody{margins_of(w, m).walls, columns});
+    if (columns.spring || columns.rolling) add_hashing<ContactHashingBody>(task, columns);
     else if (e.meshes) task.add(ContactHashingBody<false, false>{});
     task.add(ContactGeometryBody{});
   }
+}
+
+namespace {
+
+template <Scheme scheme, class Space> void add_integrate_in(Task& task, const Effects& e, const Space& space, double h) {
+  if (e.orientation) task.add(Integrate<scheme, true, true, Space>{space, h});
+  else if (e.rotation) task.add(Integrate<scheme, true, false, Space>{space, h});
+  else task.add(Integrate<scheme, false, false, Space>{space, h});
+}
+
+template <Scheme scheme> void add_integrate_by(Task& task, const Model& m, const Effects& e, double h) {
+  if (m.periodic) add_integrate_in<scheme>(task, e, *m.periodic, h);
+  else add_integrate_in<scheme>(task, e, OpenSpace{}, h);
+}
+
+}  // namespace
+
+void add_integrate(Task& task, const Model& m, const Effects& e, double h) {
+  if (m.method == Method::ndem) add_integrate_by<Scheme::symplectic_euler>(task, m, e, h);
+  else add_integrate_by<Scheme::velocity_verlet>(task, m, e, h);
 }
 
 }  // namespace skred

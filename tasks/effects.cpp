@@ -1,5 +1,6 @@
 // tasks/effects.cpp - only the effects that a scene calls for enter its step.
 #include <algorithm>
+#include <cmath>
 #include "engine/geometry/mesh.h"
 #include "tasks/model.h"
 
@@ -33,7 +34,29 @@ Margins margins_of(const World& w, const Model& m) {
   }
   const auto& motion = std::get<Bodies>(w).motion.data;
   const bool moving = std::any_of(motion.begin(), motion.end(), [](Motion x) { return x != Motion::fixed; });
-  return {list_steps, list_rest * radius, search_steps, search_rest * radius, 0.5 * skin, moving ? 0.5 * skin : 0};
+  const double step_of_walls = m.method == Method::ndem ? 2 * m.time_step * wall_speed(w, m) : 0;   // it must see them come
+  return {list_steps, list_rest * radius, search_steps, search_rest * radius, 0.5 * skin, moving ? std::max(0.5 * skin, step_of_walls) : 0};
+}
+StepAhead step_ahead(const World& w, const Model& m) {
+  if (m.method == Method::sdem) return {};
+  StepAhead ahead{true, m.time_step * m.time_step * norm(m.gravity)};
+  if (m.periodic) {                                            // of a pair: half the box less two radii
+    const Vec3& box = m.periodic->length;
+    ahead.widest = 0.25 * std::min({box.x, box.y, box.z}) - largest_radius(w);
+  }
+  return ahead;
+}
+double impact_speed_of(const Model& m) { return m.solver.impact_speed.value_or(10 * norm(m.gravity) * m.time_step); }
+double wall_speed(const World& w, const Model& m) {
+  const Geometries& g = std::get<Geometries>(w);
+  double fastest = 0;
+  for (std::size_t k = 0; k < g.rows(); ++k) {
+    const Index body = g.body.data[k];
+    const double size = outer_radius(g.shape.data[k]), lever = norm(g.local.data[k].position) + (std::isfinite(size) ? size : 0);
+    for (const MotionPiece& piece : body < m.pieces.size() ? m.pieces[body] : std::vector<MotionPiece>{})
+      fastest = std::max(fastest, norm(piece.velocity) + norm(piece.angular_velocity) * lever);
+  }
+  return fastest;
 }
 double cell_of(const World& w, const Model& m) { return std::max(m.cell, 2 * largest_radius(w) + 2 * margins_of(w, m).largest); }
 
@@ -71,19 +94,24 @@ Effects decide_effects(const World& w, const Model& m) {
   e.dynamic_bodies = decide("dynamic bodies", any_motion([](Motion x) { return x == Motion::dynamic; }), "a body is dynamic",
                             "no body is dynamic; forces on bodies are summed when statistics are sampled");
   e.moving_bodies = decide("moving bodies", any_motion([](Motion x) { return x != Motion::fixed; }), "a body moves", "every body is static");
-  e.damping = of_law("damping", m.normal_law, any_pair(&PairCoefficients::restitution, 1), "restitution is below 1 for some pair",
+  const bool nonsmooth = m.method == Method::ndem;
+  if (nonsmooth)
+    e.impacts = of_law("impact stage", m.normal_law, any_pair(&PairCoefficients::restitution, 0), "restitution is above 0 for some pair",
+                       "restitution is 0 for every pair");
+  else e.damping = of_law("damping", m.normal_law, any_pair(&PairCoefficients::restitution, 1), "restitution is below 1 for some pair",
                      "restitution is 1 for every pair");
   e.friction = of_law("friction", m.normal_law && m.tangential_law, any_pair(&PairCoefficients::friction, 0),
                       "friction is above 0 for some pair", "friction is 0 for every pair");
   e.rolling = of_law("rolling resistance", m.normal_law && m.rolling_law, any_pair(&PairCoefficients::rolling_friction, 0),
                      "rolling_friction is above 0 for some pair", "rolling_friction is 0 for every pair");
-  e.history = decide("contact history", e.friction || e.rolling, "friction or rolling resistance needs it", "no law needs it");
+  if (nonsmooth) e.history = decide("contact history", m.normal_law, "the solver starts from the impulses of the last step", "contact: normal: none");
+  else e.history = decide("contact history", e.friction || e.rolling, "friction or rolling resistance needs it", "no law needs it");
   e.rotation = decide("rotation", e.friction || e.rolling || m.orientation,
                       e.friction || e.rolling ? "friction or rolling resistance can turn particles" : "the output asks for orientations",
                       "nothing can turn a particle");
   e.orientation = decide("orientation of particles", m.orientation, "the output asks for it", "the output does not ask for it");
   const bool alike = all_equal(p.radius.data) && all_equal(p.mass.data) && all_equal(p.material.data) && p.rows() > 0;
-  e.alike = !decide("several radii or materials of particles", !alike || m.all_effects,
+  e.alike = !nonsmooth && !decide("several radii or materials of particles", !alike || m.all_effects,
                     alike ? "kept by effects: all" : "particles differ",
                     "one radius and one material: coefficients are worked out once");
   e.periodic = decide("periodic directions", m.periodic.has_value(), "the scene has some", "the scene has none");

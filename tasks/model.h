@@ -1,4 +1,4 @@
-// tasks/model.h - the choices that shape a step. A scene fills one in; add_sdem reads it.
+// tasks/model.h - the choices that shape a step. A scene fills one in; add_sdem and add_ndem read it.
 #pragma once
 #include <limits>
 #include <optional>
@@ -10,10 +10,13 @@
 #include "engine/vector_path.h"
 #include "engine/world.h"
 #include "kernels/check_motion.h"
+#include "tasks/method.h"
 
 namespace skred {
 
 struct Model {
+  Method method = Method::sdem;
+  SolverOptions solver;
   double time_step = 0;                            // h [s] > 0
   Vec3 gravity{0, 0, -9.81};                       // [m/s^2]
   PairTable pairs;
@@ -34,6 +37,7 @@ struct Model {
 struct Effects {
   bool contacts, bodies, meshes, moving_bodies, dynamic_bodies;
   bool normal, damping, friction, rolling;
+  bool impacts;                                    // the impact stage of nonsmooth DEM
   bool rotation, orientation, history;
   bool alike;                                      // one radius, one mass, one material
   bool periodic;
@@ -47,6 +51,9 @@ Effects decide_effects(const World&, const Model&);
 // Margins and cell edge that the search uses. Where there is room the skin is wider than the least, in smallest radii.
 inline constexpr double least_skin = 0.3;
 Margins margins_of(const World&, const Model&);
+StepAhead step_ahead(const World&, const Model&);
+double impact_speed_of(const Model&);              // v_imp [m/s]
+double wall_speed(const World&, const Model&);     // [m/s] greatest prescribed speed of a body's surface
 double cell_of(const World&, const Model&);
 double largest_radius(const World&);
 double smallest_radius(const World&);

@@ -13,7 +13,7 @@ class Overlaps {
   Overlaps(const World& world, const Model& model) : sim_(frictionless(world), without_laws(model), 1) {
     sim_.inside([&] {
       task_ = std::make_unique<Task>(sim_.world(), sim_.timeline());
-      add_collision(*task_, sim_.world(), sim_.model(), sim_.effects(), 0);
+      add_collision(*task_, sim_.world(), sim_.model(), sim_.effects(), {}, 0);
     });
   }
 

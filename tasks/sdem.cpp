@@ -1,18 +1,11 @@
 // tasks/sdem.cpp - one step of smooth DEM: positions, contacts, forces from overlaps, velocities.
 #include "kernels/force_application.h"
-#include "kernels/integrate.h"
 #include "kernels/move_bodies.h"
 #include "tasks/steps.h"
 
 namespace skred {
 
 namespace {
-
-template <class Space> void add_integrate(Task& task, const Effects& e, const Space& space, double h) {
-  if (e.orientation) task.add(Integrate<true, true, Space>{space, h});
-  else if (e.rotation) task.add(Integrate<true, false, Space>{space, h});
-  else task.add(Integrate<false, false, Space>{space, h});
-}
 
 template <bool contacts, bool bodies> void add_application(Task& task, const Model& m, const Effects& e, double h) {
   // Torques exist where a law makes them; an orientation that is only watched has none.
@@ -32,10 +25,10 @@ void add_sdem(Task& task, const World& world, const Model& model, bool initial) 
   const Effects e = decide_effects(world, model);
   const double h = initial ? 0 : model.time_step;
 
-  if (model.periodic) add_integrate(task, e, *model.periodic, h);
-  else add_integrate(task, e, OpenSpace{}, h);
+  const bool torques = e.friction || e.rolling;
+  add_integrate(task, model, e, h);
   if (e.moving_bodies) task.add(MoveBodies{model.pieces, model.bodies_at_start, model.time_step, h});
-  add_collision(task, world, model, e, h);
+  add_collision(task, world, model, e, {torques, e.friction, e.rolling, torques && !e.alike}, h);
   add_force_calculation(task, world, model, e, h);
 
   if (e.contacts && e.bodies) add_application<true, true>(task, model, e, h);

@@ -7,6 +7,15 @@
 
 namespace skred {
 
+namespace {
+
+void add_step(Task& task, const World& world, const Model& model, bool initial) {
+  if (model.method == Method::ndem) add_ndem(task, world, model, initial);
+  else add_sdem(task, world, model, initial);
+}
+
+}  // namespace
+
 Simulation::Simulation(World world, Model model, int threads)
     : world_(std::move(world)),
       model_(std::move(model)),
@@ -41,7 +50,7 @@ Simulation::Simulation(World world, Model model, int threads)
 
   inside([&] {
     task_ = std::make_unique<Task>(world_, timeline_);
-    add_sdem(*task_, world_, model_);
+    add_step(*task_, world_, model_, false);
   });
 }
 
@@ -49,7 +58,7 @@ void Simulation::start() {
   inside([&] {
     Timeline aside(threads_);                       // not part of the run's profile
     Task initial(world_, aside);
-    add_sdem(initial, world_, model_, true);
+    add_step(initial, world_, model_, true);
     initial.step_list();
   });
 }

@@ -1,5 +1,6 @@
 // tasks/steps.h - the steps that tasks are made of.
 #pragma once
+#include "kernels/contact_listing.h"
 #include "tasks/model.h"
 #include "tasks/task.h"
 
@@ -9,8 +10,12 @@ namespace skred {
 // forces of the state as it stands, which a run does once before its first step.
 void add_sdem(Task&, const World&, const Model&, bool initial = false);
 
-// The parts it shares with other methods.
-void add_collision(Task&, const World&, const Model&, const Effects&, double time_step);
+// One step of nonsmooth DEM. With `initial` it lists the contacts of the state as it stands and gives them their elastic forces.
+void add_ndem(Task&, const World&, const Model&, bool initial = false);
+
+// What both share. `columns` of the contacts between particles; of those, springs and rolling moments are history.
+void add_collision(Task&, const World&, const Model&, const Effects&, const ContactColumns& columns, double time_step);
+void add_integrate(Task&, const Model&, const Effects&, double time_step);
 
 // Contact force kernels, one template instance per combination of laws (tasks/force_kernels.cpp).
 void add_force_calculation(Task&, const World&, const Model&, const Effects&, double time_step);

@@ -101,4 +101,17 @@ TimeStepAdvice advise_time_step(const World& w, const Model& m, double speed) {
   return a;
 }
 
+TimeStepAdvice advise_nonsmooth_time_step(const World& w, const Model& m, double speed, double tolerance) {
+  const double radius = smallest_radius(w), reach = 2 * tolerance * radius, g = norm(m.gravity);
+  TimeStepAdvice a;
+  a.speed = speed;
+  a.overlap = reach;
+  const double by_speed = reach / speed, by_fall = g > 0 ? std::sqrt(2 * reach / g) : by_speed;
+  a.step = two_digits_down(std::min(by_speed, by_fall));
+  a.limit = std::max(radius / speed, a.step);
+  a.reason = number("at %.3g m/s a particle goes %.3g mm in this step, ", speed, a.step * speed * 1e3) +
+             number("of %.3g mm that overlap_tolerance %.3g allows", reach * 1e3, tolerance);
+  return a;
+}
+
 }  // namespace skred

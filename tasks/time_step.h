@@ -28,4 +28,9 @@ TimeStepAdvice advise_time_step(const World&, const Model&, double speed);
 // The fastest impact to expect [m/s]: speeds at the start, prescribed motion of bodies, and a fall through the height of the scene.
 double expected_speed(const World&, const Model&);
 
+// For nonsmooth DEM, whose steps are limited by motion and not by stiffness: in one step the fastest particle goes no more than the
+// part `tolerance` of the smallest diameter, h <= 2 epsilon R / v (2.7), and no more than that in free fall from rest. Beyond a
+// radius per step the physics is lost: `limit`.
+TimeStepAdvice advise_nonsmooth_time_step(const World&, const Model&, double speed, double tolerance);
+
 }  // namespace skred

@@ -1,0 +1,84 @@
+// engine/pack_quads.h - quads read and written as packs, from any places in memory: a load and a store per lane, and shuffles.
+#pragma once
+#include "engine/contact_rows.h"
+#include "engine/pack.h"
+
+namespace skred {
+
+template <class R> struct QuadT {
+  Vec3T<R> v;
+  R s{};
+};
+
+// The rows at `where(k)`, one per lane.
+template <class R, class Where> QuadT<R> load_quads(const Where& where) {
+  if constexpr (lanes<R> == 1) {
+    const Quad& q = *where(0);
+    return {q.v, q.s};
+  } else if constexpr (lanes<R> == 2) {
+    const Quad &a = *where(0), &b = *where(1);
+    return {{R(Two{a.v.x, b.v.x}), R(Two{a.v.y, b.v.y}), R(Two{a.v.z, b.v.z})}, R(Two{a.s, b.s})};
+  } else {
+#if defined(__AVX__)
+    const auto four = [&](int k) -> Four { return _mm256_load_pd(&where(k)->v.x); };
+    if constexpr (lanes<R> == 4) {
+      const Four a = four(0), b = four(1), c = four(2), d = four(3);
+      const Four xz = __builtin_shufflevector(a, b, 0, 4, 2, 6), xz2 = __builtin_shufflevector(c, d, 0, 4, 2, 6);
+      const Four ys = __builtin_shufflevector(a, b, 1, 5, 3, 7), ys2 = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+      return {{R(__builtin_shufflevector(xz, xz2, 0, 1, 4, 5)), R(__builtin_shufflevector(ys, ys2, 0, 1, 4, 5)),
+               R(__builtin_shufflevector(xz, xz2, 2, 3, 6, 7))}, R(__builtin_shufflevector(ys, ys2, 2, 3, 6, 7))};
+    }
+#if defined(__AVX512F__)
+    if constexpr (lanes<R> == 8) {
+      const auto two = [&](int k, int l) -> Eight { return _mm512_insertf64x4(_mm512_castpd256_pd512(four(k)), four(l), 1); };
+      const Eight a = two(0, 4), b = two(1, 5), c = two(2, 6), d = two(3, 7);          // each: row k, then row k + 4
+      const Eight xz = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14), xz2 = __builtin_shufflevector(c, d, 0, 8, 2, 10, 4, 12, 6, 14);
+      const Eight ys = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15), ys2 = __builtin_shufflevector(c, d, 1, 9, 3, 11, 5, 13, 7, 15);
+      return {{R(__builtin_shufflevector(xz, xz2, 0, 1, 8, 9, 4, 5, 12, 13)), R(__builtin_shufflevector(ys, ys2, 0, 1, 8, 9, 4, 5, 12, 13)),
+               R(__builtin_shufflevector(xz, xz2, 2, 3, 10, 11, 6, 7, 14, 15))}, R(__builtin_shufflevector(ys, ys2, 2, 3, 10, 11, 6, 7, 14, 15))};
+    }
+#endif
+#endif
+  }
+}
+
+// Writes the first `count` lanes to `where(k)`.
+template <class R, class Where> void store_quads(const QuadT<R>& q, int count, const Where& where) {
+  if constexpr (lanes<R> == 1) {
+    *where(0) = {q.v, q.s};
+  } else {
+    if (count < lanes<R> || lanes<R> == 2) {
+      for (int k = 0; k < count && k < lanes<R>; ++k) *where(k) = {{q.v.x[k], q.v.y[k], q.v.z[k]}, q.s[k]};
+      return;
+    }
+#if defined(__AVX__)
+    const auto put = [&](int k, Four row) { _mm256_store_pd(&where(k)->v.x, row); };
+    if constexpr (lanes<R> == 4) {
+      const Four x(q.v.x), y(q.v.y), z(q.v.z), s(q.s);
+      const Four xy = __builtin_shufflevector(x, y, 0, 4, 2, 6), xy2 = __builtin_shufflevector(x, y, 1, 5, 3, 7);
+      const Four zs = __builtin_shufflevector(z, s, 0, 4, 2, 6), zs2 = __builtin_shufflevector(z, s, 1, 5, 3, 7);
+      put(0, __builtin_shufflevector(xy, zs, 0, 1, 4, 5));
+      put(1, __builtin_shufflevector(xy2, zs2, 0, 1, 4, 5));
+      put(2, __builtin_shufflevector(xy, zs, 2, 3, 6, 7));
+      put(3, __builtin_shufflevector(xy2, zs2, 2, 3, 6, 7));
+    }
+#if defined(__AVX512F__)
+    if constexpr (lanes<R> == 8) {
+      const Eight x(q.v.x), y(q.v.y), z(q.v.z), s(q.s);
+      const Eight xy = __builtin_shufflevector(x, y, 0, 8, 2, 10, 4, 12, 6, 14), xy2 = __builtin_shufflevector(x, y, 1, 9, 3, 11, 5, 13, 7, 15);
+      const Eight zs = __builtin_shufflevector(z, s, 0, 8, 2, 10, 4, 12, 6, 14), zs2 = __builtin_shufflevector(z, s, 1, 9, 3, 11, 5, 13, 7, 15);
+      const auto put_two = [&](int k, Eight rows) {          // row k, then row k + 4
+        put(k, _mm512_castpd512_pd256(rows));
+        put(k + 4, _mm512_extractf64x4_pd(rows, 1));
+      };
+      put_two(0, __builtin_shufflevector(xy, zs, 0, 1, 8, 9, 4, 5, 12, 13));
+      put_two(1, __builtin_shufflevector(xy2, zs2, 0, 1, 8, 9, 4, 5, 12, 13));
+      put_two(2, __builtin_shufflevector(xy, zs, 2, 3, 10, 11, 6, 7, 14, 15));
+      put_two(3, __builtin_shufflevector(xy2, zs2, 2, 3, 10, 11, 6, 7, 14, 15));
+    }
+#endif
+#endif
+  }
+}
+
+}  // namespace skred

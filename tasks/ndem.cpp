@@ -1,0 +1,71 @@
+// tasks/ndem.cpp - one step of nonsmooth DEM: contacts of the state, velocities that satisfy their rows, positions.
+//
+// Servin, Wang, Lacoursiere & Bodin 2014: the velocities v(n+1) solve the rows of engine/contact_rows.h at x(n); then
+// x(n+1) = x(n) + h v(n+1).
+#include <algorithm>
+#include "kernels/constraint_setup.h"
+#include "kernels/contact_solve.h"
+#include "kernels/impulse_application.h"
+#include "kernels/initial_forces.h"
+#include "kernels/move_bodies.h"
+#include "kernels/restitution.h"
+#include "tasks/steps.h"
+
+namespace skred {
+
+namespace {
+
+std::vector<RowCoefficients> coefficients(const Model& m) {
+  std::vector<RowCoefficients> table;
+  for (const PairCoefficients& p : m.pairs.values)
+    table.push_back({4.0 / 3.0 * p.young_eff, damping_ratio_of(std::max(p.restitution, least_restitution)), p.restitution, p.friction,
+                     p.rolling_friction});
+  return table;
+}
+
+template <bool impact, bool friction, bool rolling, bool limited> SweepOptions options(const Model& m, int most) {
+  return {most, m.solver.tolerance, m.solver.separation_speed.value_or(0),
+          contact_sweep<SweepKind{impact, friction, rolling, limited, false}>(m.vector_path),
+          contact_sweep<SweepKind{impact, friction, rolling, limited, true}>(m.vector_path)};
+}
+
+template <bool rolling, bool limited> SweepOptions contact_sweeps(const Model& m, const Effects& e) {
+  return e.friction ? options<false, true, rolling, limited>(m, m.solver.iterations)
+                    : options<false, false, rolling, limited>(m, m.solver.iterations);
+}
+
+template <bool rolling, class Space> void add_solver(Task& task, const World& w, const Model& m, const Effects& e, const Space& space, bool initial) {
+  const double h = m.time_step;
+  if (initial) {
+    task.add(InitialForces<Space, rolling>{space, m.pairs.count, coefficients(m)});
+    return;
+  }
+  task.add(ConstraintSetup<Space>{space, {h, m.solver.damping_steps, impact_speed_of(m), m.gravity, e.impacts, rolling}, m.pairs.count,
+                                  coefficients(m), largest_radius(w)});
+  if (e.impacts)
+    task.add(ImpactSolve{e.friction ? options<true, true, false, false>(m, m.solver.impact_iterations)
+                                    : options<true, false, false, false>(m, m.solver.impact_iterations)});
+  const bool limited = m.solver.separation_speed.has_value();
+  task.add(ContactSolve<rolling>{limited ? contact_sweeps<rolling, true>(m, e) : contact_sweeps<rolling, false>(m, e), h, m.gravity,
+                                 m.solver.warm_start});
+  task.add(ImpulseApplication<rolling>{h});
+}
+
+}  // namespace
+
+void add_ndem(Task& task, const World& world, const Model& model, bool initial) {
+  const Effects e = decide_effects(world, model);
+  if (initial && e.moving_bodies) task.add(MoveBodies{model.pieces, model.bodies_at_start, model.time_step, 0});
+  add_collision(task, world, model, e, {false, e.history, e.rolling, false}, model.time_step);
+  const auto add = [&](const auto& space) {
+    if (e.rolling) add_solver<true>(task, world, model, e, space, initial);
+    else add_solver<false>(task, world, model, e, space, initial);
+  };
+  if (model.periodic) add(*model.periodic);
+  else add(OpenSpace{});
+  if (initial) return;
+  add_integrate(task, model, e, model.time_step);
+  if (e.moving_bodies) task.add(MoveBodies{model.pieces, model.bodies_at_start, model.time_step, model.time_step});
+}
+
+}  // namespace skred

@@ -1,0 +1,270 @@
+// Nonsmooth DEM against closed forms: single contacts, columns, impacts, and the rate of the solver.
+#include <gtest/gtest.h>
+#include "tests/physics/lab.h"
+
+namespace skred {
+namespace {
+
+using namespace lab;
+
+constexpr double R = pellet_radius;
+const double g = 9.81, m = sphere_mass(R);
+
+struct NonsmoothLab : Lab {
+  NonsmoothLab(double restitution, double friction, double rolling_friction, double step = 1e-3) : Lab(restitution, friction, rolling_friction) {
+    model.method = Method::ndem;
+    model.time_step = step;
+    model.solver.tolerance = 1e-12;
+    model.solver.iterations = 20000;
+  }
+  void under_gravity(Vec3 direction = {0, 0, -1}) { model.gravity = g * direction; }
+  void floor() { body(PlaneShape{}); }
+};
+
+void run(Simulation& s, double time) {
+  s.start();
+  while (s.time() < time - 1e-9) s.step(Execution::list);
+}
+
+double hertz(const Lab& lab, double radius_eff) { return 4.0 / 3.0 * lab.model.pairs.values[0].young_eff * std::sqrt(radius_eff); }
+
+std::vector<double> pair_forces(const Simulation& s) {         // by id of the lower particle: a column
+  std::vector<double> out;
+  const Contacts& c = std::get<Contacts>(s.world());
+  const auto& first = std::get<Incidence>(s.world()).first.data;
+  for (const Index r : rows_by_id(std::get<Particles>(s.world())))
+    for (Index k = first[r]; k < first[r + 1]; ++k) out.push_back(norm(c.force.data[k]));
+  return out;
+}
+
+// Heights at which a column of n equal spheres on a floor is at rest.
+std::vector<double> column_at_rest(const Lab& lab, int n) {
+  std::vector<double> z;
+  double top = 0;
+  for (int k = 0; k < n; ++k) {
+    const double overlap = std::pow((n - k) * m * g / hertz(lab, k == 0 ? R : R / 2), 2.0 / 3.0);
+    z.push_back(top + (k == 0 ? R : 2 * R) - overlap);
+    top = z.back();
+  }
+  return z;
+}
+
+TEST(Nonsmooth, ColumnRestsAtTheOverlapsOfHertz) {             // T2
+  for (const double h : {1e-4, 1e-3, 4e-3}) {
+    NonsmoothLab lab(0.18, 0.91, 0.3211, h);
+    lab.under_gravity();
+    lab.floor();
+    constexpr int n = 10;
+    for (int k = 0; k < n; ++k) lab.sphere({0, 0, (2 * k + 1) * R});
+    auto s = lab.build();
+    run(*s, 3);
+    const std::vector<double> z = column_at_rest(lab, n), f = pair_forces(*s);
+    for (Index k = 0; k < n; ++k) {
+      EXPECT_NEAR(position(*s, k).z, z[k], 1e-6 * 1e-3) << h << " sphere " << k;
+      if (k + 1 < n) {
+        EXPECT_NEAR(f[k] / ((n - 1 - k) * m * g), 1, 1e-6) << h;
+      }
+    }
+    EXPECT_NEAR(measure(*s).body_normal_force / (n * m * g), 1, 1e-6);
+  }
+}
+
+TEST(Nonsmooth, ImpactsAreTurnedRoundWithTheRestitution) {
+  for (const double e : {0.0, 0.18, 0.5, 1.0})
+    for (const double v : {0.5, 3.0}) {
+      NonsmoothLab lab(e, 0, 0);
+      lab.sphere({0, 0, 0}, {v, 0, 0});
+      lab.sphere({2.3 * R, 0, 0});
+      lab.model.solver.impact_speed = 0.1;
+      auto s = lab.build();
+      run(*s, 0.05);
+      EXPECT_NEAR(velocity(*s, 1).x - velocity(*s, 0).x, e * v, e > 0 ? 1e-9 * v : 0.02 * v) << e;   // e = 0: the little that the gap ends with
+      EXPECT_NEAR(velocity(*s, 1).x + velocity(*s, 0).x, v, 1e-12);
+      EXPECT_LT(measure(*s).max_overlap_ratio, 1e-9);          // it was seen to come
+    }
+}
+
+TEST(Nonsmooth, CradleFollowsNewtonsLaw) {                     // T6
+  NonsmoothLab lab(1, 0, 0);
+  lab.sphere({0, 0, 0}, {1, 0, 0});
+  lab.sphere({2 * R, 0, 0});
+  lab.sphere({4 * R, 0, 0});
+  lab.model.solver.impact_iterations = 10000;
+  lab.model.solver.impact_speed = 0.1;
+  auto s = lab.build();
+  s->start();
+  s->step();
+  EXPECT_NEAR(velocity(*s, 0).x, -1.0 / 3, 1e-6);
+  EXPECT_NEAR(velocity(*s, 1).x, 2.0 / 3, 1e-6);
+  EXPECT_NEAR(velocity(*s, 2).x, 2.0 / 3, 1e-6);
+}
+
+double resting_height(const Lab& lab) { return R - std::pow(m * g / hertz(lab, R), 2.0 / 3.0); }
+
+TEST(Nonsmooth, RollsDownAnInclineAgainstRollingResistance) {  // T7
+  const double mu = 0.91, mu_r = 0.3211;
+  for (const double degrees : {25.0, 17.0}) {
+    const double theta = degrees * M_PI / 180;
+    NonsmoothLab lab(0, mu, mu_r);
+    lab.model.pairs = one_pair(0, mu, mu_r, {pellet_density, 1e10, 0.25});   // hard: the arm of friction is R
+    lab.model.gravity = g * Vec3{std::sin(theta), 0, -std::cos(theta)};
+    lab.floor();
+    const double overlap = std::pow(m * g * std::cos(theta) / hertz(lab, R), 2.0 / 3.0);
+    lab.sphere({0, 0, R - overlap});
+    auto s = lab.build();
+    s->start();
+    const double time = degrees > 20 ? 1 : 10;
+    while (s->time() < time - 1e-9) s->step();
+    const double a = velocity(*s, 0).x / s->time();
+    const double expected = degrees > 20 ? 5.0 / 7 * g * (std::sin(theta) - mu_r * std::cos(theta)) : 0;
+    EXPECT_NEAR(a, expected, 0.001 * g * std::sin(theta) * (degrees > 20 ? 0.1 : 1e-6)) << degrees;
+  }
+}
+
+TEST(Nonsmooth, RollingOnTheFlatStopsAndStaysStopped) {        // T8
+  const double mu_r = 0.3211;
+  NonsmoothLab lab(0, 0.91, mu_r, 1e-4);
+  lab.under_gravity();
+  lab.floor();
+  const double z = resting_height(lab);
+  const double arm = 0.5 * (R + z);
+  lab.sphere({0, 0, z}, {0.5, 0, 0}, {0, 0.5 / arm, 0});
+  auto s = lab.build();
+  run(*s, 1);
+  EXPECT_NEAR(position(*s, 0).x, 0.5 * 0.5 / (2 * 5.0 / 7 * g * mu_r), 0.005 * 0.0556);
+  EXPECT_LT(norm(velocity(*s, 0)), 1e-6);
+}
+
+TEST(Nonsmooth, SlidingTurnsIntoRolling) {                     // T9
+  for (const double mu_r : {0.0, 0.3211}) {
+    NonsmoothLab lab(0, 0.91, mu_r, 1e-5);
+    lab.under_gravity();
+    lab.floor();
+    const double z = resting_height(lab);
+    lab.sphere({0, 0, z}, {0.5, 0, 0});
+    auto s = lab.build();
+    s->start();
+    const auto slip = [&] { return velocity(*s, 0).x - spin(*s, 0).y * 0.5 * (R + z); };
+    while (slip() > 1e-9 && s->time() < 0.1) s->step();
+    const double expected = 0.5 / (g * (3.5 * 0.91 - 2.5 * mu_r));
+    EXPECT_NEAR(s->time() / expected, 1, 0.005) << mu_r;
+    EXPECT_NEAR(velocity(*s, 0).x, 0.5 - 0.91 * g * expected, 0.005 * 0.35) << mu_r;
+  }
+}
+
+TEST(Nonsmooth, ObliqueImpactsSlideOrStick) {                  // T10
+  const double mu = 0.3, e = 0.5;
+  for (const double degrees : {10.0, 30.0, 45.0, 70.0, 80.0}) {
+    const double t = std::tan(degrees * M_PI / 180), vn = 1, vt = t * vn;
+    NonsmoothLab lab(e, mu, 0);
+    lab.floor();
+    lab.sphere({0, 0, R + 1e-9}, {vt, 0, -vn});
+    lab.model.solver.impact_speed = 0.1;
+    lab.model.solver.impact_iterations = 1000;
+    auto s = lab.build();
+    s->start();
+    s->step();
+    const bool slips = t > 3.5 * mu * (1 + e);
+    const double arm = R;
+    EXPECT_NEAR(velocity(*s, 0).z, e * vn, 1e-9);
+    EXPECT_NEAR(velocity(*s, 0).x, slips ? vt - mu * (1 + e) * vn : 5.0 / 7 * vt, 1e-6) << degrees;
+    EXPECT_NEAR(spin(*s, 0).y * arm, slips ? 2.5 * mu * (1 + e) * vn : 5.0 / 7 * vt, 1e-6) << degrees;
+  }
+}
+
+TEST(Nonsmooth, OverlappingSpheresPartGently) {                // T12
+  for (const bool limited : {false, true}) {
+    NonsmoothLab lab(0.18, 0, 0);
+    lab.sphere({0, 0, 0});
+    lab.sphere({R, 0, 0});                                     // overlap R
+    lab.model.pairs = one_pair(0.18, 0, 0, {pellet_density, 1e10, 0.25});
+    if (limited) lab.model.solver.separation_speed = 0.2;
+    auto s = lab.build();
+    s->start();
+    s->step();
+    const double speed = velocity(*s, 1).x - velocity(*s, 0).x;
+    const double spook = 3.2 * R / (1e-3 * 9);
+    EXPECT_NEAR(speed, limited ? 0.2 : spook, 0.02 * spook);
+    for (int k = 0; k < 200; ++k) {
+      s->step();
+      EXPECT_LE(velocity(*s, 1).x - velocity(*s, 0).x, (limited ? 0.2 : spook) * (1 + 1e-12));
+    }
+    EXPECT_EQ(measure(*s).contacts, 0u);
+  }
+}
+
+TEST(Nonsmooth, MomentumIsKept) {                              // T22
+  NonsmoothLab lab(0.5, 0.5, 0.1);
+  add_cloud(lab, 6, 2.05 * R, 7, 1.0);
+  std::unique_ptr<Simulation> s;
+  const auto sums = [&] {
+    Vec3 p, l;
+    const Particles& q = std::get<Particles>(s->world());
+    for (const Index r : rows_by_id(q)) {
+      const double i = 0.4 * q.mass.data[r] * q.radius.data[r] * q.radius.data[r];
+      p += q.mass.data[r] * q.velocity.data[r];
+      l += cross(q.position.data[r], q.mass.data[r] * q.velocity.data[r]) + i * q.angular_velocity.data[r];
+    }
+    return std::pair(p, l);
+  };
+  lab.model.solver.tolerance = 1e-6;
+  s = lab.build();
+  s->start();
+  const auto [p0, l0] = sums();
+  double scale = 0, turn = 0;
+  const Particles& q = std::get<Particles>(s->world());
+  for (std::size_t k = 0; k < q.rows(); ++k) scale += q.mass.data[k] * norm(q.velocity.data[k]), turn += q.mass.data[k] * norm(q.velocity.data[k]) * norm(q.position.data[k]);
+  for (int k = 0; k < 50; ++k) s->step();
+  const auto [p1, l1] = sums();
+  EXPECT_GT(std::get<Solver>(s->world()).sweeps.data[0], 2);
+  EXPECT_LT(norm(p1 - p0), 1e-12 * scale);
+  EXPECT_LT(norm(l1 - l0), 1e-11 * turn);
+}
+
+TEST(Nonsmooth, SameBitsForAnyThreadsOrdersAndVectors) {
+  const auto hash = [](int threads, VectorPath path, Execution how, int reorder, double skin) {
+    NonsmoothLab lab(0.3, 0.6, 0.2);
+    lab.under_gravity();
+    lab.floor();
+    add_cloud(lab, 9, 2.02 * R, 3, 1.0);
+    for (Vec3& x : lab.particles().position.data) x.z += 12 * R;
+    lab.model.solver.tolerance = 1e-3;
+    lab.model.vector_path = path;
+    lab.model.reorder_every = reorder;
+    lab.model.skin = skin;
+    auto s = lab.build(threads);
+    s->start();
+    for (int k = 0; k < 60; ++k) s->step(how);
+    EXPECT_GT(std::get<Solver>(s->world()).contacts.data[0], 400);
+    return s->state_hash();
+  };
+  const auto expected = hash(1, VectorPath::scalar, Execution::serial, 0, 0);
+  for (const VectorPath path : vector_paths()) EXPECT_EQ(hash(1, path, Execution::serial, 0, 0), expected) << name_of(path);
+  for (const int threads : {1, 2, 4}) EXPECT_EQ(hash(threads, best_vector_path(), Execution::graph, 1, 0.5 * R), expected) << threads;
+}
+
+// Sweeps until the floor's force of a rigid column at rest under gravity, started cold, is right to 1e-3.   T3
+TEST(Nonsmooth, SweepsOfARigidColumnGrowWithTheSquareOfItsHeight) {
+  for (const auto& [n, expected] : {std::pair{5, 68}, {10, 271}, {20, 1086}, {40, 4343}}) {
+    NonsmoothLab lab(0, 0, 0);
+    lab.model.pairs = one_pair(0, 0, 0, {pellet_density, 1e18, 0.25});
+    lab.under_gravity();
+    lab.floor();
+    for (int k = 0; k < n; ++k) lab.sphere({0, 0, R - 1e-12 + k * (2 * R - 1e-12)});
+    lab.model.solver.warm_start = false;
+    lab.model.solver.tolerance = 0;
+    const auto error = [&](int sweeps) {
+      lab.model.solver.iterations = sweeps;
+      auto s = lab.build();
+      s->start();
+      s->step();
+      return std::abs(measure(*s).body_normal_force / (n * m * g) - 1);
+    };
+    int low = 1, high = 3 * expected;
+    while (high - low > 1) (error((low + high) / 2) > 1e-3 ? low : high) = (low + high) / 2;
+    EXPECT_NEAR(high, expected, 0.05 * expected) << n;
+  }
+}
+
+}  // namespace
+}  // namespace skred
