@@ -2,6 +2,7 @@
 //
 // Every table lists its columns in `columns()`, so that reordering, memory accounts and output are written once.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <tuple>
 #include "engine/column.h"
@@ -220,17 +221,19 @@ struct SolverBodies {
 // Cubes of space with the contacts of the particles in them, by colour: those of colour c are the blocks
 // [first_of_colour[c], first_of_colour[c+1]) and have no particle in common (kernels/constraint_setup.h).
 inline constexpr std::size_t block_colours = 8;
+using BlockNeighbours = std::array<Index, 26>;                     // no_index where there is no block
 struct ContactBlocks {
   Column<Buffer<ContactGroup>> groups{"contact_groups", "1"};
   Column<Buffer<GroupSource>>  sources{"group_sources", "1"};
   Column<SweepChange>          change{"sweep_change", "N s"};
   Column<Index>                contacts{"contacts_of_block", "1"};
   Column<Index>                impacts{"impacts_of_block", "1"};   // contacts that the impact stage turns round
+  Column<BlockNeighbours>      neighbours{"neighbour_blocks", "1"};   // filled where there is an impact stage
   Column<Index>                first_of_colour{"first_of_colour", "1"};
   std::size_t rows() const { return groups.data.size(); }
   static constexpr auto columns() {
     return std::tuple{&ContactBlocks::groups, &ContactBlocks::sources, &ContactBlocks::change, &ContactBlocks::contacts,
-                      &ContactBlocks::impacts, &ContactBlocks::first_of_colour};
+                      &ContactBlocks::impacts, &ContactBlocks::neighbours, &ContactBlocks::first_of_colour};
   }
 };
 

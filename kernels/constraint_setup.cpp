@@ -13,6 +13,7 @@ struct BlockGrid {
   struct Axis {
     double low = 0, inverse_edge = 0;
     std::uint64_t last = 0;                                  // number of the last block along the axis
+    bool closed = false;                                     // the last meets the first
     std::uint64_t of(double x) const {
       const double c = (x - low) * inverse_edge;
       return c > 0 ? static_cast<std::uint64_t>(std::min(c, double(last))) : 0;    // NaN: 0
@@ -21,17 +22,37 @@ struct BlockGrid {
   static constexpr int bits = 20;                            // of a number along one axis
   std::array<Axis, 3> axis;
 
-  std::uint64_t block(const Vec3& p) const {
-    const std::uint64_t x = axis[0].of(p.x), y = axis[1].of(p.y), z = axis[2].of(p.z);
-    return colour_bits(x & 1, y & 1, z & 1) | z << 2 * bits | y << bits | x;
-  }
-  static constexpr std::uint64_t colour_bits(std::uint64_t x, std::uint64_t y, std::uint64_t z) { return (x | y << 1 | z << 2) << 3 * bits; }
+  std::uint64_t block(const Vec3& p) const { return number({axis[0].of(p.x), axis[1].of(p.y), axis[2].of(p.z)}); }
   static int colour(std::uint64_t block) { return static_cast<int>(block >> 3 * bits); }
+
+  // visit(number) of every block beside this one that there may be.
+  template <class Visit> void for_each_neighbour(std::uint64_t block, const Visit& visit) const {
+    const std::uint64_t mask = (std::uint64_t{1} << bits) - 1;
+    const std::array<std::uint64_t, 3> at{block & mask, block >> bits & mask, block >> 2 * bits & mask};
+    for (int k = 0; k < 27; ++k) {
+      std::array<std::uint64_t, 3> to;
+      bool there = k != 13;
+      for (int a = 0, rest = k; a < 3; ++a, rest /= 3) {
+        const Axis& x = axis[std::size_t(a)];
+        const int shift = rest % 3 - 1;
+        std::uint64_t& t = to[std::size_t(a)] = at[std::size_t(a)];
+        if (shift < 0) there &= t > 0 || x.closed, t = t > 0 ? t - 1 : x.last;
+        if (shift > 0) there &= t < x.last || x.closed, t = t < x.last ? t + 1 : 0;
+      }
+      if (there) visit(number(to));
+    }
+  }
+
+ private:
+  static constexpr std::uint64_t number(const std::array<std::uint64_t, 3>& at) {
+    const auto [x, y, z] = at;
+    return ((x & 1) | (y & 1) << 1 | (z & 1) << 2) << 3 * bits | z << 2 * bits | y << bits | x;
+  }
 };
 
 constexpr std::uint64_t most_blocks = (std::uint64_t{1} << BlockGrid::bits) - 1;
 
-BlockGrid::Axis open_axis(double low, double edge) { return {low, 1 / edge, most_blocks}; }
+BlockGrid::Axis open_axis(double low, double edge) { return {low, 1 / edge, most_blocks, false}; }
 BlockGrid block_grid(const Vec3& low, double edge, const OpenSpace&) {
   return {{open_axis(low.x, edge), open_axis(low.y, edge), open_axis(low.z, edge)}};
 }
@@ -39,8 +60,8 @@ BlockGrid block_grid(const Vec3& low, double edge, const PeriodicSpace& space) {
   const auto axis = [&](double from, double length, double open_from) -> BlockGrid::Axis {
     if (!std::isfinite(length)) return open_axis(open_from, edge);
     const double pairs = std::min(std::floor(length / (2 * edge)), double(most_blocks / 2));   // an even number: the last meets the first
-    if (pairs < 1) return {from, 0, 0};
-    return {from, 2 * pairs / length, static_cast<std::uint64_t>(2 * pairs) - 1};
+    if (pairs < 1) return {from, 0, 0, false};
+    return {from, 2 * pairs / length, static_cast<std::uint64_t>(2 * pairs) - 1, true};
   };
   return {{axis(space.min.x, space.length.x, low.x), axis(space.min.y, space.length.y, low.y), axis(space.min.z, space.length.z, low.z)}};
 }
@@ -191,11 +212,13 @@ void ConstraintSetup<Space>::operator()(Parallel parallel, Read<&Particles::id> 
   tbb::parallel_sort(members.begin(), members.end(),
                      [](const Member& a, const Member& b) { return a.block != b.block ? a.block < b.block : a.id < b.id; });
   std::vector<std::size_t> begin_of_block;
+  std::vector<std::uint64_t> numbers;
   auto& first_of_colour = blocks->first_of_colour.data;
   first_of_colour.assign(block_colours + 1, 0);
   for (std::size_t m = 0; m < n; ++m)
     if (m == 0 || members[m].block != members[m - 1].block) {
       begin_of_block.push_back(m);
+      numbers.push_back(members[m].block);
       ++first_of_colour[BlockGrid::colour(members[m].block) + 1];
     }
   for (std::size_t c = 1; c <= block_colours; ++c) first_of_colour[c] += first_of_colour[c - 1];
@@ -206,6 +229,7 @@ void ConstraintSetup<Space>::operator()(Parallel parallel, Read<&Particles::id> 
   blocks->change.data.assign(count, {});
   resize_for_overwrite(blocks->contacts.data, count);
   resize_for_overwrite(blocks->impacts.data, count);
+  resize_for_overwrite(blocks->neighbours.data, options.impacts ? count : 0);
 
   parallel(count, 4, [&](std::size_t begin, std::size_t end) {
     thread_local std::vector<std::uint64_t> used;            // all zero between two blocks
@@ -253,6 +277,15 @@ void ConstraintSetup<Space>::operator()(Parallel parallel, Read<&Particles::id> 
       grouping.close();
       for (ContactGroup& g : groups)
         for (std::size_t l = std::size_t(g.count); l < ContactGroup::size; ++l) g.a[l] = g.a[0], g.b[l] = g.b[0];
+      if (options.impacts) {
+        BlockNeighbours& beside = blocks->neighbours.data[k];
+        beside.fill(no_index);
+        std::size_t found = 0;
+        grid.for_each_neighbour(numbers[k], [&](std::uint64_t number) {
+          const auto at = std::lower_bound(numbers.begin(), numbers.end(), number);
+          if (at != numbers.end() && *at == number) beside[found++] = static_cast<Index>(at - numbers.begin());
+        });
+      }
       blocks->contacts.data[k] = contacts;
       blocks->impacts.data[k] = impacts;
     }

@@ -1,4 +1,6 @@
 #include "kernels/contact_solve.h"
+#include <algorithm>
+#include <atomic>
 #include <numeric>
 #include "kernels/contact_law.h"
 
@@ -20,6 +22,14 @@ template <class Visit> void by_colour(const Parallel& parallel, std::span<const 
 
 struct Outcome { int sweeps = 0; double residual = 0; };
 
+SweepChange sum(std::span<const SweepChange> change) {
+  SweepChange all;
+  for (const SweepChange& c : change) all.change += c.change, all.total += c.total;
+  return all;
+}
+
+double residual_of(const SweepChange& all) { return all.change > 0 ? all.change / all.total : 0; }
+
 Outcome solve(const Parallel& parallel, const SweepOptions& o, std::span<const Index> first_of_colour, std::span<Buffer<ContactGroup>> groups,
               std::span<SolverBody> bodies, std::span<SweepChange> change) {
   constexpr int between_measures = 4;
@@ -30,10 +40,35 @@ Outcome solve(const Parallel& parallel, const SweepOptions& o, std::span<const I
     const SweepGroups sweep = measured ? o.measured_sweep : o.sweep;
     by_colour(parallel, first_of_colour, [&](std::size_t b) { sweep(groups[b].data(), groups[b].size(), bodies.data(), o.separation_speed, change[b]); });
     if (!measured) continue;
-    SweepChange all;
-    for (const SweepChange& c : change) all.change += c.change, all.total += c.total;
-    out.residual = all.change > 0 ? all.change / all.total : 0;
+    out.residual = residual_of(sum(change));
     if (out.residual <= o.tolerance) break;
+  }
+  return out;
+}
+
+// The same, but a block is visited only when it has an impact, or when it or a neighbour has just changed by more than the tolerance
+// allows: few impacts need not wake everyone.
+Outcome solve_near(std::span<const Index> impacts, std::span<const BlockNeighbours> neighbours, const Parallel& parallel, const SweepOptions& o,
+                   std::span<const Index> first_of_colour, std::span<Buffer<ContactGroup>> groups, std::span<SolverBody> bodies,
+                   std::span<SweepChange> change) {
+  std::vector<std::atomic<char>> awake(groups.size());       // of blocks of one colour only others are neighbours: no order in which
+  for (std::size_t b = 0; b < awake.size(); ++b) awake[b].store(impacts[b] > 0, std::memory_order_relaxed);   // a colour is run can matter
+  Outcome out;
+  double enough = 0;                                         // [N s]
+  while (out.sweeps < o.most) {
+    ++out.sweeps;
+    by_colour(parallel, first_of_colour, [&](std::size_t b) {
+      if (!awake[b].exchange(0, std::memory_order_relaxed)) return;
+      o.measured_sweep(groups[b].data(), groups[b].size(), bodies.data(), o.separation_speed, change[b]);
+      if (change[b].change <= enough) return;
+      awake[b].store(1, std::memory_order_relaxed);
+      for (const Index n : neighbours[b])
+        if (n != no_index) awake[n].store(1, std::memory_order_relaxed);
+    });
+    const SweepChange all = sum(change);
+    enough = o.tolerance * all.total;
+    out.residual = residual_of(all);
+    if (std::none_of(awake.begin(), awake.end(), [](const auto& a) { return a.load(std::memory_order_relaxed) != 0; })) break;
   }
   return out;
 }
@@ -44,11 +79,11 @@ void put(const Vec3& v, ContactGroup::Vectors& to, std::size_t lane) { to.x[lane
 }  // namespace
 
 void ImpactSolve::operator()(Parallel parallel, Read<&ContactBlocks::first_of_colour> first_of_colour, Read<&ContactBlocks::impacts> impacts_of_block,
-                             Update<&ContactBlocks::groups> groups, Update<&ContactBlocks::sources> sources, Update<&ContactBlocks::change> change,
+                             Read<&ContactBlocks::neighbours> neighbours, Update<&ContactBlocks::groups> groups, Update<&ContactBlocks::sources> sources, Update<&ContactBlocks::change> change,
                              Update<&SolverBodies::state> bodies, Write<&Solver::impacts> impacts, Write<&Solver::impact_sweeps> sweeps_done,
                              Write<&Solver::impact_residual> residual) const {
   impacts[0] = std::accumulate(impacts_of_block.begin(), impacts_of_block.end(), std::int64_t{0});
-  const Outcome done = impacts[0] > 0 ? solve(parallel, sweeps, first_of_colour, groups, bodies, change) : Outcome{};
+  const Outcome done = impacts[0] > 0 ? solve_near(impacts_of_block, neighbours, parallel, sweeps, first_of_colour, groups, bodies, change) : Outcome{};
   sweeps_done[0] = done.sweeps;
   residual[0] = done.residual;
   if (impacts[0] == 0) return;

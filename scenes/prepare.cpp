@@ -41,12 +41,13 @@ void choose_time_step(const Scene& scene, bool force, Prepared& p) {
   if (!std::isfinite(p.advice.step) || !(p.advice.step > 0) || !std::isfinite(p.advice.limit))
     throw SceneRefused(fmt::format("time_step: none can be found: {}; radii, speeds, gravity or moduli (in SI units) are beyond what "
                                    "numbers can hold", p.advice.reason));
-  if (!scene.time_step) {
+  const std::optional<double> given = scene.method == Method::ndem && scene.solver_time_step ? scene.solver_time_step : scene.time_step;
+  if (!given) {
     p.model.time_step = std::min(p.advice.step, scene.end_time);
     p.notes.push_back(fmt::format("time step {:g} s (auto): {}", p.model.time_step, p.advice.reason));
     return;
   }
-  p.model.time_step = *scene.time_step;
+  p.model.time_step = *given;
   if (p.model.time_step <= p.advice.limit) {
     p.notes.push_back(fmt::format("time step {:g} s (given; auto would be {:g} s, the limit is {:.2g} s)", p.model.time_step,
                                   p.advice.step, p.advice.limit));

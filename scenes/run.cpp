@@ -42,6 +42,18 @@ std::shared_ptr<spdlog::logger> make_log(const OutputFolder& folder, const RunOp
   return log;
 }
 
+// How the solver of nonsmooth DEM did.
+struct Sweeps {
+  std::int64_t contact = 0, most = 0, impact = 0, contact_sweeps = 0;   // sums over the steps; contact_sweeps: contacts times sweeps
+  double residual = 0;                                                   // greatest at the end of a step
+  void add(const Solver& s) {
+    contact += s.sweeps.data[0], impact += s.impact_sweeps.data[0];
+    most = std::max(most, s.sweeps.data[0]);
+    contact_sweeps += s.sweeps.data[0] * s.contacts.data[0];
+    residual = std::max(residual, s.residual.data[0]);
+  }
+};
+
 // What the run loop works on.
 struct Run {
   const Scene& scene;
@@ -54,6 +66,7 @@ struct Run {
   Measures last;
   std::int64_t reported_outside = 0;
   double smallest_radius = 0;                                // [m]
+  Sweeps sweeps;
 };
 
 std::string likely_cause(const Run& r) {
@@ -125,10 +138,27 @@ void count_for_trace(Run& r, const Measures& m) {
   r.sim.timeline().counter("kinetic energy [J]", m.kinetic_energy + m.rotational_energy);
 }
 
+void add_solver(nlohmann::json& summary, const Run& r, const Timeline::Totals& totals) {
+  if (r.scene.method != Method::ndem) return;
+  const Solver& s = std::get<Solver>(r.sim.world());
+  const double steps = std::max<double>(1, double(r.sim.steps_done()));
+  double in_sweeps = 0;                                      // [s]
+  for (const auto& k : totals.lines)
+    if (k.name == "contact_solve") in_sweeps = k.total;
+  summary["iterations"] = double(r.sweeps.contact) / steps;
+  summary["most_iterations"] = r.sweeps.most;
+  summary["impact_iterations"] = double(r.sweeps.impact) / steps;
+  summary["residual"] = s.residual.data[0];
+  summary["greatest_residual"] = r.sweeps.residual;
+  summary["steps_unsolved"] = s.unsolved.data[0];
+  summary["contact_sweeps"] = r.sweeps.contact_sweeps;
+  summary["seconds_per_sweep"] = r.sweeps.contact > 0 ? in_sweeps / double(r.sweeps.contact) : 0;
+}
+
 nlohmann::json make_summary(const Run& r, const std::string& outcome, double wall, const Timeline::Totals& totals) {
   const std::size_t particles = std::get<Particles>(r.sim.world()).rows();
   const double steps = double(r.sim.steps_done());
-  return {{"scene", r.scene.name}, {"method", method_word(r.scene.method)}, {"outcome", outcome}, {"threads", r.sim.threads()},
+  nlohmann::json summary = {{"scene", r.scene.name}, {"method", method_word(r.scene.method)}, {"outcome", outcome}, {"threads", r.sim.threads()},
           {"vector_path", name_of(r.sim.model().vector_path)}, {"particles", particles},
           {"bodies", std::get<Bodies>(r.sim.world()).rows()}, {"steps", r.sim.steps_done()}, {"time_step", r.sim.model().time_step},
           {"simulated_time", r.sim.time()}, {"wall_time", wall},
@@ -140,6 +170,20 @@ nlohmann::json make_summary(const Run& r, const std::string& outcome, double wal
           {"particles_outside_bounds", std::get<Search>(r.sim.world()).outside.data[0]}, {"peak_memory", peak_memory()}, {"profiling_cost", totals.cost},
           {"software", "skred " SKRED_VERSION}, {"processor", processor_name()}, {"compiler", compiler_name()},
           {"load_average", load_average()}, {"kernels", profile_json(totals)}};
+  add_solver(summary, r, totals);
+  return summary;
+}
+
+// A solver that stopped before its tolerance does not do so in silence.
+std::string solver_text(const Run& r) {
+  if (r.scene.method != Method::ndem) return "";
+  const std::int64_t unsolved = std::get<Solver>(r.sim.world()).unsolved.data[0];
+  const double steps = std::max<double>(1, double(r.sim.steps_done()));
+  std::string text = fmt::format(", {:.1f} sweeps a step", double(r.sweeps.contact) / steps);
+  if (unsolved > 0)
+    text += fmt::format("; {} of {} steps stopped at {} sweeps above the tolerance {:g} (greatest residual {:.2g})", unsolved, r.sim.steps_done(),
+                        r.scene.solver.iterations, r.scene.solver.tolerance, r.sweeps.residual);
+  return text;
 }
 
 void write_pictures(const Run& r) {
@@ -188,6 +232,7 @@ bool advance(Run& r, const InterruptGuard& interrupt) {
     const std::int64_t n = r.sim.steps_done() + 1;
     r.sim.timeline().begin_step(n);                          // sampling and copying frames are part of the step that does them
     r.sim.step();
+    r.sweeps.add(std::get<Solver>(r.sim.world()));
     check_trouble(r);
     if (n % r.every_row == 0 || n == r.steps) take_row(r);
     if (r.every_frame > 0 && n % r.every_frame == 0) r.recorder.frame();
@@ -294,8 +339,8 @@ int run_scene(const Scene& scene, const RunOptions& options) {
   }
   log.info("\n{}", profile_table(totals, sim.threads()));
   const double rate = wall > 0 ? double(sim.steps_done()) * double(particles) / wall : 0;
-  log.info("{} at t = {:g} s: {} steps in {}, {:.2f} million particle-steps per second, state hash {}", outcome, sim.time(), sim.steps_done(),
-           duration_text(wall), rate * 1e-6, hash_text(sim.state_hash()));
+  log.info("{} at t = {:g} s: {} steps in {}, {:.2f} million particle-steps per second{}, state hash {}", outcome, sim.time(), sim.steps_done(),
+           duration_text(wall), rate * 1e-6, solver_text(r), hash_text(sim.state_hash()));
   return code;
 }
 

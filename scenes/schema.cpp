@@ -205,11 +205,17 @@ const Section<Scene::Start>& start_keys() {
   return section;
 }
 
-struct SolverKeys { SolverOptions options; double overlap_tolerance = Scene{}.overlap_tolerance; };
+struct SolverKeys {
+  SolverOptions options;
+  std::optional<double> time_step;
+  double overlap_tolerance = Scene{}.overlap_tolerance;
+};
 
 const Section<SolverKeys>& solver_keys() {
   using S = SolverKeys;
   static const Section<S> section{{
+      key("time_step", Or<Number>{"same", {"s", positive}}, &S::time_step,
+          "Time step of nonsmooth DEM, which takes larger ones; same: the scene's time_step. --time-step goes before both."),
       nested<S>("iterations", Integer<int>{1}, [](auto& s) -> auto& { return s.options.iterations; }, "Most sweeps of the contact stage in a step."),
       nested<S>("impact_iterations", Integer<int>{1}, [](auto& s) -> auto& { return s.options.impact_iterations; }, "Most sweeps of the impact stage in a step."),
       nested<S>("tolerance", Number{"1", non_negative}, [](auto& s) -> auto& { return s.options.tolerance; },
@@ -291,8 +297,8 @@ const Section<Scene>& scene_keys() {
       key("effects", Word<bool>{{{"auto", false}, {"all", true}}}, &S::all_effects,
           "auto: leave out what the scene does not call for; all: keep every effect, even where its parameter is zero."),
       key("contact", Map<ContactModel>{contact_keys}, &S::contact, "Contact laws."),
-      property<S>("solver", Map<SolverKeys>{solver_keys}, [](const S& s) { return SolverKeys{s.solver, s.overlap_tolerance}; },
-                  [](S& s, const SolverKeys& k) { s.solver = k.options, s.overlap_tolerance = k.overlap_tolerance; },
+      property<S>("solver", Map<SolverKeys>{solver_keys}, [](const S& s) { return SolverKeys{s.solver, s.solver_time_step, s.overlap_tolerance}; },
+                  [](S& s, const SolverKeys& k) { s.solver = k.options, s.solver_time_step = k.time_step, s.overlap_tolerance = k.overlap_tolerance; },
                   "Nonsmooth DEM: how its steps are solved."),
       key("periodic", Map<Periodic>{periodic_keys}, &S::periodic, "Periodic directions."),
       property<S>("bounds", Or<Map<BoundsKeys>>{"none", {bounds_keys}},

@@ -9,7 +9,7 @@ enum class Method { sdem, ndem };                  // smooth: explicit, small st
 // How nonsmooth DEM solves its steps.
 struct SolverOptions {
   int iterations = 500;                            // most sweeps of the contact stage, >= 1
-  int impact_iterations = 100;                     // and of the impact stage
+  int impact_iterations = 50;                      // and of the impact stage
   double tolerance = 1e-3;                         // a sweep that changes less than this part of all impulses is the last; 0: all sweeps
   bool warm_start = true;
   double damping_steps = 2;                        // n_s >= 0 [1]: contacts relax within this many steps at the fastest
