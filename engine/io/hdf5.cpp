@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 #include "engine/io/hdf5_error.h"
+#include "engine/io/twin_file.h"
 
 namespace skred {
 
@@ -62,6 +63,15 @@ Hdf5Handle parents() {                   // "create the groups on the way"
   return list;
 }
 
+void set_unit(const Hdf5Handle& dataset, const std::string& unit, const std::string& file) {
+  const std::string action = "write the units of a dataset";
+  const Hdf5Handle type = text_type(H5T_VARIABLE, H5T_CSET_UTF8), one(H5Screate(H5S_SCALAR), H5Sclose);
+  const Hdf5Handle made(hdf5_check(H5Acreate2(dataset.id(), "units", type.id(), one.id(), H5P_DEFAULT, H5P_DEFAULT), file, action),
+                        H5Aclose);
+  const char* text = unit.c_str();
+  hdf5_check(H5Awrite(made.id(), type.id(), &text), file, action);
+}
+
 }  // namespace
 
 void Hdf5Dataset::append(Hdf5Number type, const void* values, std::size_t count) {
@@ -69,28 +79,48 @@ void Hdf5Dataset::append(Hdf5Number type, const void* values, std::size_t count)
   if (count % row != 0)
     throw std::logic_error(name_ + ": " + std::to_string(count) + " values are no whole rows of " + std::to_string(row));
   if (count == 0) return;
+  if (once_ && rows_ > 0) throw std::logic_error(name_ + ": is compressed, so its rows must come at once");
   std::vector<hsize_t> start{rows_}, extent{count / row}, size{rows_ + count / row};
   for (const std::size_t n : inner_) { start.push_back(0); extent.push_back(n); size.push_back(n); }
-  const std::string action = "write '" + name_ + "'";
-  hdf5_check(H5Dset_extent(handle_.id(), size.data()), file_, action);
-  const Hdf5Handle on_disk(hdf5_check(H5Dget_space(handle_.id()), file_, action), H5Sclose);
-  const Hdf5Handle in_memory(hdf5_check(H5Screate_simple(int(extent.size()), extent.data(), nullptr), file_, action), H5Sclose);
-  hdf5_check(H5Sselect_hyperslab(on_disk.id(), H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr), file_, action);
-  hdf5_check(H5Dwrite(handle_.id(), native(type), in_memory.id(), on_disk.id(), H5P_DEFAULT, values), file_, action);
+  const std::string &path = file_->path(), action = "write '" + name_ + "'";
+  const Hdf5Handle in_memory(hdf5_check(H5Screate_simple(int(extent.size()), extent.data(), nullptr), path, action), H5Sclose);
+  file_->share(true);
+  for (const Hdf5Handle& dataset : twins_) {
+    hdf5_check(H5Dset_extent(dataset.id(), size.data()), path, action);
+    const Hdf5Handle on_disk(hdf5_check(H5Dget_space(dataset.id()), path, action), H5Sclose);
+    hdf5_check(H5Sselect_hyperslab(on_disk.id(), H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr), path, action);
+    hdf5_check(H5Dwrite(dataset.id(), native(type), in_memory.id(), on_disk.id(), H5P_DEFAULT, values), path, action);
+  }
+  file_->share(false);
   rows_ += count / row;
 }
 
 Hdf5File::Hdf5File(const std::string& path) : path_(path) {
   quiet_hdf5();
-  // Weak closing would keep the file open as long as a dataset is: then close() could not tell of a full disk.
-  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  H5Pset_fclose_degree(access.id(), H5F_CLOSE_STRONG);
-  handle_ = {hdf5_check(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), path, "create the file"), H5Fclose};
+  file_ = std::make_unique<TwinFile>(path);
+  for (int tree : {0, 1}) {
+    const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+    file_->choose(access.id(), tree);
+    H5Pset_fclose_degree(access.id(), H5F_CLOSE_STRONG);     // datasets that are still open do not keep the file
+    H5Pset_cache(access.id(), 0, 0, 0, 0);                   // numbers are written at once
+    // Each flush looks at all metadata that the library keeps, 32 MiB if left alone: slower with every frame.
+    H5AC_cache_config_t metadata{};
+    metadata.version = H5AC__CURR_CACHE_CONFIG_VERSION;
+    H5Pget_mdc_config(access.id(), &metadata);
+    metadata.set_initial_size = true;
+    metadata.initial_size = metadata.min_size = metadata.max_size = 512 << 10;
+    H5Pset_mdc_config(access.id(), &metadata);
+    twins_[std::size_t(tree)] = {hdf5_check(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), path,
+                                            "create the file"), H5Fclose};
+  }
 }
 
+Hdf5File::~Hdf5File() = default;
+
 void Hdf5File::group(const std::string& name) {
-  const Hdf5Handle made(hdf5_check(H5Gcreate2(handle_.id(), name.c_str(), parents().id(), H5P_DEFAULT, H5P_DEFAULT), path_,
-                                   "create group '" + name + "'"), H5Gclose);
+  for (const Hdf5Handle& file : twins_)
+    const Hdf5Handle made(hdf5_check(H5Gcreate2(file.id(), name.c_str(), parents().id(), H5P_DEFAULT, H5P_DEFAULT), path_,
+                                     "create group '" + name + "'"), H5Gclose);
 }
 
 Hdf5Dataset Hdf5File::dataset(const std::string& name, Hdf5Number type, const Hdf5Layout& layout) {
@@ -103,15 +133,19 @@ Hdf5Dataset Hdf5File::dataset(const std::string& name, Hdf5Number type, const Hd
   if (layout.compress) {
     hdf5_check(H5Pset_shuffle(create.id()), path_, action);
     hdf5_check(H5Pset_deflate(create.id(), 1), path_, action);
+  } else {
+    H5Pset_fill_time(create.id(), H5D_FILL_TIME_NEVER);      // rows are written as soon as they are there
   }
   Hdf5Dataset made;
-  made.handle_ = {hdf5_check(H5Dcreate2(handle_.id(), name.c_str(), native(type), space.id(), parents().id(), create.id(),
-                                        H5P_DEFAULT), path_, action), H5Dclose};
-  made.file_ = path_;
+  for (std::size_t t = 0; t < twins_.size(); ++t)
+    made.twins_[t] = {hdf5_check(H5Dcreate2(twins_[t].id(), name.c_str(), native(type), space.id(), parents().id(), create.id(),
+                                            H5P_DEFAULT), path_, action), H5Dclose};
+  for (const Hdf5Handle& one : made.twins_) set_unit(one, layout.unit, path_);
+  made.file_ = file_.get();
   made.name_ = name;
   made.unit_ = layout.unit;
   made.inner_ = layout.inner;
-  attribute(name, "units", layout.unit);
+  made.once_ = layout.compress;
   return made;
 }
 
@@ -120,17 +154,20 @@ void Hdf5File::strings(const std::string& name, const std::vector<std::string>& 
   const std::string action = "write '" + name + "'";
   const Hdf5Handle space(hdf5_check(H5Screate_simple(1, &count, nullptr), path_, action), H5Sclose);
   const Hdf5Handle type = text_type(H5T_VARIABLE, H5T_CSET_UTF8);
-  const Hdf5Handle made(hdf5_check(H5Dcreate2(handle_.id(), name.c_str(), type.id(), space.id(), parents().id(), H5P_DEFAULT,
-                                              H5P_DEFAULT), path_, action), H5Dclose);
-  if (values.empty()) return;
   std::vector<const char*> texts;
   for (const std::string& value : values) texts.push_back(value.c_str());
-  hdf5_check(H5Dwrite(made.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, texts.data()), path_, action);
+  for (const Hdf5Handle& file : twins_) {
+    const Hdf5Handle made(hdf5_check(H5Dcreate2(file.id(), name.c_str(), type.id(), space.id(), parents().id(), H5P_DEFAULT,
+                                                H5P_DEFAULT), path_, action), H5Dclose);
+    if (!values.empty())
+      hdf5_check(H5Dwrite(made.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, texts.data()), path_, action);
+  }
 }
 
 void Hdf5File::link(const std::string& existing, const std::string& name) {
-  hdf5_check(H5Lcreate_hard(handle_.id(), existing.c_str(), handle_.id(), name.c_str(), parents().id(), H5P_DEFAULT), path_,
-             "link '" + name + "'");
+  for (const Hdf5Handle& file : twins_)
+    hdf5_check(H5Lcreate_hard(file.id(), existing.c_str(), file.id(), name.c_str(), parents().id(), H5P_DEFAULT), path_,
+               "link '" + name + "'");
 }
 
 void Hdf5File::view(const std::string& name, const Hdf5Dataset& source, std::size_t first, std::size_t count) {
@@ -141,28 +178,32 @@ void Hdf5File::view(const std::string& name, const Hdf5Dataset& source, std::siz
   const Hdf5Handle shown(hdf5_check(H5Screate_simple(rank, extent.data(), nullptr), path_, action), H5Sclose);
   const Hdf5Handle rows(hdf5_check(H5Screate_simple(rank, whole.data(), nullptr), path_, action), H5Sclose);
   hdf5_check(H5Sselect_hyperslab(rows.id(), H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr), path_, action);
-  const Hdf5Handle create(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  hdf5_check(H5Pset_virtual(create.id(), shown.id(), ".", source.name_.c_str(), rows.id()), path_, action);
-  const Hdf5Handle type(H5Dget_type(source.handle_.id()), H5Tclose);
-  const Hdf5Handle made(hdf5_check(H5Dcreate2(handle_.id(), name.c_str(), type.id(), shown.id(), parents().id(), create.id(),
-                                              H5P_DEFAULT), path_, action), H5Dclose);
-  attribute(name, "units", source.unit_);
+  const Hdf5Handle type(H5Dget_type(source.twins_[0].id()), H5Tclose);
+  for (const Hdf5Handle& file : twins_) {
+    const Hdf5Handle create(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);      // not to be shared: the library keeps addresses in it
+    hdf5_check(H5Pset_virtual(create.id(), shown.id(), ".", source.name_.c_str(), rows.id()), path_, action);
+    const Hdf5Handle made(hdf5_check(H5Dcreate2(file.id(), name.c_str(), type.id(), shown.id(), parents().id(), create.id(),
+                                                H5P_DEFAULT), path_, action), H5Dclose);
+    set_unit(made, source.unit_, path_);
+  }
 }
 
 void Hdf5File::write_attribute(const std::string& object, const std::string& name, Hdf5Handle::Id file_type,
                                Hdf5Handle::Id memory_type, std::optional<std::size_t> count, const void* values) {
   const std::string action = "write attribute '" + name + "' of '" + object + "'";
-  const Hdf5Handle at(hdf5_check(H5Oopen(handle_.id(), object.c_str(), H5P_DEFAULT), path_, action), H5Oclose);
-  Hdf5Handle target;
-  if (hdf5_check(H5Aexists(at.id(), name.c_str()), path_, action) > 0) {
-    target = {hdf5_check(H5Aopen(at.id(), name.c_str(), H5P_DEFAULT), path_, action), H5Aclose};
-  } else {
-    const hsize_t size = count.value_or(1);
-    const Hdf5Handle space(count ? H5Screate_simple(1, &size, nullptr) : H5Screate(H5S_SCALAR), H5Sclose);
-    target = {hdf5_check(H5Acreate2(at.id(), name.c_str(), file_type, space.id(), H5P_DEFAULT, H5P_DEFAULT), path_, action),
-              H5Aclose};
+  for (const Hdf5Handle& file : twins_) {
+    const Hdf5Handle at(hdf5_check(H5Oopen(file.id(), object.c_str(), H5P_DEFAULT), path_, action), H5Oclose);
+    Hdf5Handle target;
+    if (hdf5_check(H5Aexists(at.id(), name.c_str()), path_, action) > 0) {
+      target = {hdf5_check(H5Aopen(at.id(), name.c_str(), H5P_DEFAULT), path_, action), H5Aclose};
+    } else {
+      const hsize_t size = count.value_or(1);
+      const Hdf5Handle space(count ? H5Screate_simple(1, &size, nullptr) : H5Screate(H5S_SCALAR), H5Sclose);
+      target = {hdf5_check(H5Acreate2(at.id(), name.c_str(), file_type, space.id(), H5P_DEFAULT, H5P_DEFAULT), path_, action),
+                H5Aclose};
+    }
+    hdf5_check(H5Awrite(target.id(), memory_type, values), path_, action);
   }
-  hdf5_check(H5Awrite(target.id(), memory_type, values), path_, action);
 }
 
 void Hdf5File::attribute(const std::string& object, const std::string& name, const std::string& text) {
@@ -189,12 +230,17 @@ void Hdf5File::fixed_text(const std::string& object, const std::string& name, co
   write_attribute(object, name, type.id(), type.id(), {}, ascii.data());
 }
 
-void Hdf5File::flush() { hdf5_check(H5Fflush(handle_.id(), H5F_SCOPE_GLOBAL), path_, "write the file"); }
+void Hdf5File::commit() {
+  hdf5_check(H5Fflush(twins_[std::size_t(next_)].id(), H5F_SCOPE_GLOBAL), path_, "write the file");
+  file_->commit(next_);
+  next_ = 1 - next_;
+}
 
 void Hdf5File::close() {
-  if (!handle_) return;
-  flush();                               // so that a full disk is told while the file is still open
-  handle_.reset();
+  if (!file_) return;
+  commit();
+  for (Hdf5Handle& file : twins_) file.reset();
+  file_.reset();
 }
 
 }  // namespace skred

@@ -4,7 +4,9 @@
 // nothing by itself. Names are paths from the root of the file ("/bodies/force"); missing groups on the way are created.
 // One thread at a time may use these classes: the library takes a global lock where it is thread-safe at all.
 #pragma once
+#include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -46,6 +48,8 @@ template <class T> constexpr Hdf5Number hdf5_number() {
 }
 std::size_t size_of(Hdf5Number);         // [bytes]
 
+class TwinFile;
+
 // A table that grows by rows: shape (rows, inner...). A copy of it would be a second writer: move only.
 class Hdf5Dataset {
  public:
@@ -56,15 +60,17 @@ class Hdf5Dataset {
   template <class T> void append_value(T value) { append(std::span<const T>(&value, 1)); }
   std::size_t rows() const { return rows_; }
   const std::string& name() const { return name_; }
-  explicit operator bool() const { return bool(handle_); }
+  explicit operator bool() const { return bool(twins_[0]); }
 
  private:
   friend class Hdf5File;
   void append(Hdf5Number type, const void* values, std::size_t count);
-  Hdf5Handle handle_;
-  std::string file_, name_, unit_;
+  std::array<Hdf5Handle, 2> twins_;      // in both trees of the file
+  TwinFile* file_ = nullptr;             // lives longer
+  std::string name_, unit_;
   std::vector<std::size_t> inner_;
   std::size_t rows_ = 0;
+  bool once_ = false;
 };
 
 // How a growing dataset is laid out on disk.
@@ -72,14 +78,15 @@ struct Hdf5Layout {
   std::vector<std::size_t> inner = {};   // extents after the first, each > 0; {} for one number per row
   std::size_t chunk_rows = 512;          // rows stored, and compressed, together; >= 1
   std::string unit = "1";                // SI, stored as the attribute "units"
-  bool compress = false;                 // shuffle + deflate level 1: for columns that repeat themselves
+  bool compress = false;                 // shuffle + deflate level 1; such a column is appended to once
 };
 
-// A file being written. It is truncated when opened.
+// A file being written. It holds what was there at the last commit, even if the process is killed in the midst of the next; before
+// the first there is no new file, only PATH.tmp.
 class Hdf5File {
  public:
   explicit Hdf5File(const std::string& path);
-  ~Hdf5File() = default;                 // closes as well as it can; close() tells of errors
+  ~Hdf5File();                           // what is not committed is lost
 
   void group(const std::string& name);
   Hdf5Dataset dataset(const std::string& name, Hdf5Number type, const Hdf5Layout& layout);
@@ -95,15 +102,17 @@ class Hdf5File {
   void attribute(const std::string& object, const std::string& name, double value);
   void fixed_text(const std::string& object, const std::string& name, const std::string& ascii);   // of fixed length
 
-  void flush();                          // all to the operating system: a process killed later leaves a readable file
-  void close();                          // its datasets too
+  void commit();                         // all that was written is in the file from now on
+  void close();                          // commits; its datasets are closed too
   const std::string& path() const { return path_; }
 
  private:
   void write_attribute(const std::string& object, const std::string& name, Hdf5Handle::Id file_type, Hdf5Handle::Id memory_type,
                        std::optional<std::size_t> count, const void* values);
   std::string path_;
-  Hdf5Handle handle_;
+  std::unique_ptr<TwinFile> file_;
+  std::array<Hdf5Handle, 2> twins_;      // the library's two trees (twin_file.h): everything is written to both
+  int next_ = 0;                         // the one to commit
 };
 
 enum class Hdf5Kind { integer, real, text, other };

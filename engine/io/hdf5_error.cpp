@@ -31,7 +31,7 @@ void throw_hdf5_error(const std::string& file, const std::string& action) {
   H5Eclear2(H5E_DEFAULT);
   std::string message = file + ": cannot " + action + ": ";
   message += !story.reason.empty() ? story.reason : !story.innermost.empty() ? story.innermost : "unknown HDF5 error";
-  if (story.innermost.find("lock") != std::string::npos)
+  if (story.innermost.find(" lock ") != std::string::npos)
     message += " (the file system may not support locks, or another program has the file open; try HDF5_USE_FILE_LOCKING=FALSE)";
   throw IoError(message);
 }

@@ -30,7 +30,7 @@ std::string path_in(const std::string& folder, const char* name) { return (std::
 
 StatisticsWriter::StatisticsWriter(const std::string& folder)
     : csv_path_(path_in(folder, "statistics.csv")), csv_(create(csv_path_)), hdf5_(path_in(folder, "statistics.h5")) {
-  hdf5_.flush();
+  hdf5_.commit();
 }
 
 StatisticsWriter::~StatisticsWriter() {
@@ -86,19 +86,16 @@ void StatisticsWriter::write_waiting() {
     datasets_[k].append(waiting_[k]);
     waiting_[k].clear();
   }
-  hdf5_.flush();
+  hdf5_.commit();
   written_at_ = now();
 }
 
 void StatisticsWriter::close() {
   if (!csv_) return;
   csv_.reset();                          // every row was flushed
-  try {
-    if (!failed_) write_waiting();
-    hdf5_.close();
-  } catch (...) {
-    if (!failed_) throw;
-  }
+  if (failed_) return;
+  write_waiting();
+  hdf5_.close();
 }
 
 }  // namespace skred

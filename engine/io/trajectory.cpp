@@ -55,7 +55,7 @@ struct TrajectoryWriter::Impl {
       : folder(place), header(std::move(h)), file((folder / "trajectory.h5").string()), particles(file, header),
         bodies(file, header), contacts(file, header.single_precision) {
     describe(file, header);
-    file.flush();
+    file.commit();
   }
 
   void check(const Frame& frame) const {
@@ -73,7 +73,7 @@ struct TrajectoryWriter::Impl {
                                   std::to_string(times.back()) + " s");
   }
 
-  // A disk that fills up in the middle of a frame leaves a file that the library no longer opens. So ask first.
+  // A disk that fills up in the middle of a frame leaves no room for the summary and the log either. So ask first.
   void require_space(const Frame& frame) const {
     constexpr std::size_t tables = 1 << 20;      // new chunks of small tables, the library's own trees
     const std::size_t real = header.single_precision ? sizeof(float) : sizeof(double);
@@ -95,9 +95,7 @@ struct TrajectoryWriter::Impl {
     particles.append(frame);
     bodies.append(frame, header);
     contacts.append(frame);
-    file.flush();                        // before the frame counts, so that a run killed in between has only whole ones
-    particles.commit(frame);
-    file.flush();
+    file.commit();
     oriented = !frame.orientation.empty();
     times.push_back(frame.time);
     xdmf_current = false;
@@ -135,7 +133,7 @@ void TrajectoryWriter::close() {
   if (impl_->closed) return;
   impl_->closed = true;
   try {
-    impl_->file.close();
+    if (!impl_->failed) impl_->file.close();                 // else the frames before are in it
     if (!impl_->xdmf_current) impl_->write_xdmf();
   } catch (...) {
     if (!impl_->failed) throw;

@@ -13,9 +13,8 @@
 //                        [first[k], first[k] + count[k])
 //   /skred               scene, method, software, time step, materials
 //
-// Every dataset of numbers has the attribute "units". After each frame all is handed to the operating system, so a run that
-// is killed leaves a readable file, except within the milliseconds of a write. Disk space is set aside before each frame.
-// NSteps counts whole frames.
+// Every dataset of numbers has the attribute "units". The file always holds whole frames: a run that is killed, also in the
+// midst of a write, leaves those before (twin_file.h). Disk space is set aside before each frame.
 #pragma once
 #include <memory>
 #include <string>

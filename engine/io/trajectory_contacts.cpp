@@ -11,8 +11,8 @@ constexpr std::size_t rows_per_chunk = 16384;
 void ContactTables::make(Table& table, const char* a, const char* b, bool with_point) {
   table.first = file_.dataset(table.group + "first", Hdf5Number::int64, {});
   table.count = file_.dataset(table.group + "count", Hdf5Number::int64, {});
-  table.a = file_.dataset(table.group + a, Hdf5Number::uint32, {.chunk_rows = rows_per_chunk, .compress = true});
-  table.b = file_.dataset(table.group + b, Hdf5Number::uint32, {.chunk_rows = rows_per_chunk, .compress = true});
+  table.a = file_.dataset(table.group + a, Hdf5Number::uint32, {.chunk_rows = rows_per_chunk});
+  table.b = file_.dataset(table.group + b, Hdf5Number::uint32, {.chunk_rows = rows_per_chunk});
   if (with_point) table.point = RealColumn(file_, table.group + "point", "m", 3, rows_per_chunk, single_);
   table.force = RealColumn(file_, table.group + "force", "N", 3, rows_per_chunk, single_);
   for (std::size_t k = 0; k < frames_; ++k) index(table, 0);   // the frames before had none

@@ -36,7 +36,7 @@ ParticleTables::ParticleTables(Hdf5File& file, const FrameHeader& header)
   angular_velocity_ = column(data + "angular_velocity", "rad/s");
   force_ = column(data + "force", "N");
   coordination_ = file.dataset(data + "coordination", Hdf5Number::uint32,
-                               {.chunk_rows = chunk_rows(count_, sizeof(std::uint32_t)), .compress = true});
+                               {.chunk_rows = chunk_rows(count_, sizeof(std::uint32_t))});
   fixed_columns(header);
 
   time_ = file.dataset(vtk + "Steps/Values", Hdf5Number::real64, {.unit = "s"});
@@ -93,7 +93,14 @@ void ParticleTables::append(const Frame& frame) {
   force_.append(frame.force);
   if (orientation_) orientations_.append(frame.orientation);
   coordination_.append(frame.coordination);
-  if (count_ == 0) return;
+  if (count_ > 0) add_views();
+  for (auto& [table, base, stride] : per_step_) table.append_value(base + frames_ * stride);
+  step_.append_value(frame.step);
+  time_.append_value(frame.time);
+  file_.attribute("/VTKHDF/Steps", "NSteps", ++frames_);
+}
+
+void ParticleTables::add_views() {
   const std::string group = frame_group(std::size_t(frames_));
   const auto view = [&](const char* name, const Hdf5Dataset& all) {
     file_.view(group + name, all, std::size_t(frames_) * count_, count_);
@@ -104,13 +111,6 @@ void ParticleTables::append(const Frame& frame) {
   view("force", force_.dataset());
   view("coordination", coordination_);
   if (orientation_) view("orientation", orientations_.dataset());
-}
-
-void ParticleTables::commit(const Frame& frame) {
-  for (auto& [table, base, stride] : per_step_) table.append_value(base + frames_ * stride);
-  step_.append_value(frame.step);
-  time_.append_value(frame.time);
-  file_.attribute("/VTKHDF/Steps", "NSteps", ++frames_);
 }
 
 std::string ParticleTables::xdmf(const std::string& scene, std::span<const double> times) const {

@@ -12,13 +12,13 @@ namespace skred {
 class ParticleTables {
  public:
   ParticleTables(Hdf5File& file, const FrameHeader& header);
-  void append(const Frame& frame);       // the columns; commit() makes the frame count
-  void commit(const Frame& frame);
+  void append(const Frame& frame);
   // A temporal collection of all frames; empty without particles or frames.
   std::string xdmf(const std::string& scene, std::span<const double> times) const;
 
  private:
   void fixed_columns(const FrameHeader& header);
+  void add_views();                      // of the newest frame
   // A number per frame under /VTKHDF: base + frame * stride.
   struct StepTable { Hdf5Dataset table; std::int64_t base, stride; };
   void step_table(const std::string& name, std::int64_t base, std::int64_t stride);

@@ -8,6 +8,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import xml.etree.ElementTree as xml
 
 sys.dont_write_bytecode = True
 SCENES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scenes")
@@ -104,17 +105,17 @@ def h5py():
     return module
 
 
-def check_trajectory(folder, least_frames, ended=True):
-    """Every frame that has a time is whole. Behind them there may be part of one more where the run was not ended properly.
-    Returns the number of frames."""
+def check_trajectory(folder, least_frames):
+    """The file has whole frames and nothing else, and trajectory.xdmf refers to what is there. Returns the number of frames."""
     with h5py().File(os.path.join(folder, "trajectory.h5"), "r") as file:
         times, count = file["frames/time"][...], int(file["skred"].attrs["particles"])
         frames = len(times)
         assert frames >= least_frames and (times[1:] > times[:-1]).all(), f"{frames} frames at {times}"
-        rows = len(file["particles/position"]) - frames * count
-        assert 0 <= rows <= (0 if ended else count), f"{rows} rows too many for {frames} frames"
+        assert file["VTKHDF/Steps"].attrs["NSteps"] == frames and len(file["particles/position"]) == frames * count
         for k in range(frames):
-            assert file[f"frames/{k:06d}/position"].shape == (count, 3)
+            assert (file[f"frames/{k:06d}/position"][...] == file["particles/position"][k * count:(k + 1) * count]).all(), k
+        for item in xml.parse(os.path.join(folder, "trajectory.xdmf")).iter("DataItem"):
+            assert list(file[item.text.split(":")[1]].shape) == [int(n) for n in item.get("Dimensions").split()], item.text
         return frames
 
 

@@ -33,7 +33,7 @@ TEST(Hdf5, RowsOfEveryTypeGrowAndReadBack) {
     reals.append(std::vector<double>{4, 5, 6, 7, 8, 9});
     singles.append(std::vector<float>{0.1f, 2});
     integers.append(std::vector<std::int64_t>{-1, 2, 3, std::int64_t{1} << 60});
-    for (std::uint32_t k = 0; k < 7; ++k) indices.append_value(k * 1000);
+    indices.append(std::vector<std::uint32_t>{0, 1000, 2000, 3000, 4000, 5000, 6000});
     bytes.append(std::vector<std::uint8_t>{255, 0});
     EXPECT_EQ(reals.rows(), 3u);
     file.close();
@@ -75,6 +75,7 @@ TEST(Hdf5, TextAttributesLinksAndViews) {
       file.view("/frame/" + std::to_string(k), rows, k, 1);
     }
     file.link("/rows", "/alias/of/rows");
+    file.close();
   }
   const Hdf5Reader read(path);
   EXPECT_THAT(read.read_strings("/names"), ElementsAre("pellet", "", "st\u00e5l <&>"));
@@ -145,6 +146,7 @@ TEST(Hdf5, SaysWhatIsWrongAndPrintsNothing) {
                 HasSubstr("cannot create '/reals'"));
     auto pairs = file.dataset("/pairs", Hdf5Number::real64, {{2}});
     EXPECT_THAT(message_of<std::logic_error>([&] { pairs.append_value(1.0); }), HasSubstr("no whole rows of 2"));
+    file.close();
   }
   {
     const Hdf5Reader read(path);
@@ -181,7 +183,7 @@ TEST(Hdf5, AWriteThatFailsNamesTheReason) {
       for (int k = 0; k < 100 && message.empty(); ++k)
         message = message_of<IoError>([&] {
           reals.append(std::vector<double>(1024, k));
-          file.flush();
+          file.commit();
         });
     }
     return message.find("a.h5: cannot write") != std::string::npos && message.find("File too large") != std::string::npos

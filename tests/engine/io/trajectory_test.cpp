@@ -3,12 +3,29 @@
 #include "engine/io/trajectory.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include "engine/io/hdf5.h"
 #include "tests/engine/io/faults.h"
 #include "tests/engine/io/sample.h"
+
+// In place of the C library's: the process can be made to die in a write.
+static int writes_to_live = -1;                                          // -1: for ever
+
+extern "C" ssize_t pwrite(int fd, const void* from, std::size_t bytes, off_t at) {
+  if (writes_to_live == 0) {
+    // As the kernel does when the signal comes: it stops between two pages.
+    constexpr std::size_t page = 4096;
+    ::syscall(SYS_pwrite64, fd, from, bytes / 2 / page * page, at);
+    ::_exit(EXIT_SUCCESS);
+  }
+  if (writes_to_live > 0) --writes_to_live;
+  return ::syscall(SYS_pwrite64, fd, from, bytes, at);
+}
 
 using namespace skred;
 using faults::message_of;
@@ -204,6 +221,53 @@ TEST(Trajectory, AKilledRunLeavesAllItsFrames) {
   EXPECT_THAT(read.read_doubles("/frames/time"), ElementsAre(0, 0.01, 0.02));
   EXPECT_EQ(read.read_doubles("/frames/000002/velocity"), flat(sample::frame(2, header).velocity));
   EXPECT_TRUE(fs::exists(folder / "trajectory.xdmf"));
+}
+
+// Whichever write the process dies in: the frames that were appended are there, and at most the one in progress.
+TEST(Trajectory, AProcessThatDiesInAWriteLeavesWholeFrames) {
+  const TemporaryFolder folder;
+  const std::string file = folder / "trajectory.h5";
+  const std::size_t particles = 700;                                     // columns of two to three pages
+  const FrameHeader header = only_particles(particles);
+  const auto frame = [&](int k) {
+    Frame f = sample::frame(k, header);
+    if (k % 2 == 1) f.contacts.assign(300, {0, 1, {1, 2, 3}});
+    return f;
+  };
+  void* const shared = ::mmap(nullptr, sizeof(int), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  ASSERT_NE(shared, MAP_FAILED);
+  int& appended = *static_cast<int*>(shared);
+  bool survived = false;
+  for (int life = 0; !survived && !HasFailure(); ++life) {
+    SCOPED_TRACE(life);
+    fs::remove(file);
+    appended = 0;
+    survived = "survived" == faults::in_child([&] {
+      writes_to_live = life;
+      TrajectoryWriter writer(folder.path.string(), header);
+      for (int k = 0; k < 3; ++k) {
+        writer.append(frame(k));
+        ++appended;
+      }
+      writer.close();
+      return std::string("survived");
+    });
+    if (!fs::exists(file)) {
+      EXPECT_EQ(appended, 0);
+      continue;
+    }
+    const int whole = int(frames_in(folder.path.string()));
+    EXPECT_TRUE(whole == appended || whole == appended + 1) << whole << " of " << appended;
+    const Hdf5Reader read(file);
+    for (const std::string& name : read.datasets()) read.shape(name);
+    EXPECT_EQ(read.read_integers("/frames/step").size(), std::size_t(whole));
+    EXPECT_EQ(read.shape("/particles/position")[0], particles * std::size_t(whole));
+    for (int k = 0; k < whole; ++k)
+      EXPECT_EQ(read.read_doubles("/frames/00000" + std::to_string(k) + "/velocity"), flat(frame(k).velocity));
+    EXPECT_EQ(read.has("/contacts/particle_particle/force"), whole > 1);
+  }
+  EXPECT_EQ(appended, 3);
+  ::munmap(shared, sizeof(int));
 }
 
 // A real full disk: the frames before stay readable, and what is written later is refused at once.
