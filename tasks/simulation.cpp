@@ -102,6 +102,13 @@ std::uint64_t Simulation::state_hash() const {
       if (!bc.rolling.data.empty()) hash.add(bc.rolling.data[k]);
     }
   }
+  const RigidContacts& rc = std::get<RigidContacts>(world_);
+  for (std::size_t k = 0; k < rc.rows(); ++k) {
+    if (!(rc.overlap.data[k] > 0)) continue;
+    hash.add(rc.geometry_a.data[k]);
+    hash.add(rc.geometry_b.data[k]);
+    if (!rc.spring.data.empty()) hash.add(rc.spring.data[k]);
+  }
   const Bodies& b = std::get<Bodies>(world_);
   for (std::size_t k = 0; k < b.rows(); ++k) {
     hash.add(b.pose.data[k]);

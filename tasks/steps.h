@@ -12,6 +12,9 @@ void add_sdem(Task&, const World&, const Model&, bool initial = false);
 // The parts it shares with other methods.
 void add_collision(Task&, const World&, const Model&, const Effects&, double time_step);
 
+// Points where bodies touch each other, and those less than `margin` [m] apart.
+void add_rigid_collision(Task&, const World&, const Effects&, double margin);
+
 // Contact force kernels, one template instance per combination of laws (tasks/force_kernels.cpp).
 void add_force_calculation(Task&, const World&, const Model&, const Effects&, double time_step);
 
