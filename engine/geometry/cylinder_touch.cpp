@@ -132,7 +132,7 @@ void touch_rolls(const Roll& a, const Roll& b, double margin, std::vector<Touch>
   for (const Vec3& n : {b.axis, -b.axis}) best.offer({n, Carrier::end_of_b});
   for (const Vec3& n : {a.axis, -a.axis}) best.offer({n, Carrier::end_of_a});
   const Vec3 apart = a.centre - b.centre, beside = apart - dot(apart, b.axis) * b.axis, across = cross(a.axis, b.axis);
-  if (norm(across) <= parallel && norm(beside) > 0) best.offer({normalized(beside), Carrier::sides});
+  if (norm(across) <= parallel && norm(beside) > 1e-9 * a.radius) best.offer({normalized(beside), Carrier::sides});
   if (norm(across) > parallel) {
     const Vec3 n = normalized(dot(across, apart) < 0 ? -across : across);
     const Vec3 along = cross(n, a.axis);                     // the point of b's axis that is nearest to a's

@@ -66,7 +66,8 @@ Vec3 farthest_across(const Roll& c, const Vec3& direction) {
 Vec3 Roll::support(const Vec3& direction) const {
   const Vec3 out = around(*this, direction);
   const double length = norm(out);
-  return length > 0 ? end_of(*this, direction) + (radius / length) * out : end_of(*this, direction);
+  constexpr double least = 1e-9;                             // less is rounding, and points anywhere
+  return length > least * norm(direction) ? end_of(*this, direction) + (radius / length) * out : end_of(*this, direction);
 }
 
 std::vector<Vec3> Roll::end_towards(const Vec3& direction) const {

@@ -112,7 +112,7 @@ std::vector<Vec3> far_points_of_rim(const Roll& a, double end, const Pose& frame
     Vec3 r;
     for (int k = 0; k < 40; ++k) {
       const Vec3 g = k == 0 ? start : from_axis + flat(r), pull = g - dot(g, a.axis) * a.axis;
-      r = a.radius * (norm(pull) > 0 ? normalized(pull) : a.across);
+      r = a.radius * (norm(pull) > 1e-9 * a.radius ? normalized(pull) : a.across);
     }
     if (out.empty() || norm(out.back() - (middle + r)) > 1e-3 * a.radius) out.push_back(middle + r);
   }
