@@ -70,6 +70,29 @@ struct GroupSource {
   std::array<Vec3, ContactGroup::size> impact_impulse{};   // [N s] on a, of the impact stage
 };
 
+// Symmetric: the inverse of a tensor of inertia, in the world's frame [1/(kg m^2)].
+struct InverseInertia {
+  Vec3 x, y, z;                     // rows
+  friend constexpr Vec3 operator*(const InverseInertia& i, const Vec3& v) { return {dot(i.x, v), dot(i.y, v), dot(i.z, v)}; }
+};
+
+// A contact of a dynamic rigid body, with a particle or another body. Such bodies can touch any number of others, so that
+// their contacts are swept one after the other, behind those of the particles. b may be a body that nothing can move.
+struct HubContact {
+  Index a = no_index, b = no_index;                  // rows of SolverBodies
+  Index inertia_a = no_index, inertia_b = no_index;  // rows of Bodies; no_index: a particle
+  Index contact = no_index;                          // row of BodyContacts, or of RigidContacts
+  bool of_bodies = false, impact = false;
+  Vec3 normal, tangent, across;                      // unit, from b to a; and two at right angles to it
+  Vec3 arm_a, arm_b;                                 // [m] from the centres to the contact point
+  double overlap = 0, allowance = 0, velocity_factor = 0;              // as in GroupSource
+  double bias = 0, compliance = 0, normal_step = 0, free_step = 0;     // as in ContactGroup
+  double step_tt = 0, step_ta = 0, step_aa = 0;      // [kg] inverse of the 2 x 2 matrix w_t
+  double rolling_step = 0, friction = 0, rolling_arm = 0;
+  double normal_impulse = 0;                         // [N s]
+  Vec3 friction_impulse, rolling_impulse, impact_impulse;
+};
+
 // How much the last sweep changed.
 struct SweepChange {
   double change = 0, total = 0;     // [N s] sums of |change of p_n| + |change of p_t|, and of p_n

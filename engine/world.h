@@ -168,8 +168,8 @@ struct Bodies {
   Column<Pose>   pose{"pose", "m, 1"};
   Column<Vec3>   velocity{"velocity", "m/s"};                      // of the origin of its frame
   Column<Vec3>   angular_velocity{"angular_velocity", "rad/s"};
-  Column<Vec3>   force{"force", "N"};                              // from particles
-  Column<Vec3>   torque{"torque", "N m"};                          // from particles, about the origin of its frame
+  Column<Vec3>   force{"force", "N"};                              // of all contacts
+  Column<Vec3>   torque{"torque", "N m"};                          // of all contacts, about the origin of its frame
   Column<Vec3>   acceleration{"acceleration", "m/s^2"};            // dynamic bodies
   Column<Vec3>   angular_acceleration{"angular_acceleration", "rad/s^2"};
   Column<Vec3>   previous_acceleration{"previous_acceleration", "m/s^2"};
@@ -198,6 +198,33 @@ struct Geometries {
   }
 };
 
+// Pairs of geometries of different bodies, one of them dynamic, that may touch in this step: a < b, sorted.
+struct RigidPairs {
+  Column<Index> a{"geometry_a", "1"}, b{"geometry_b", "1"};        // rows of Geometries
+  std::size_t rows() const { return a.data.size(); }
+  static constexpr auto columns() { return std::tuple{&RigidPairs::a, &RigidPairs::b}; }
+};
+
+// Points where two rigid bodies touch or nearly do, made anew in every step: sorted by geometry_a, geometry_b, slot.
+struct RigidContacts {
+  Column<Index>  geometry_a{"geometry_a", "1"}, geometry_b{"geometry_b", "1"};   // rows of Geometries, a < b
+  Column<Index>  slot{"slot", "1"};                                // 0, 1, ... within the pair
+  Column<Index>  previous{"row_before", "1"};                      // the row of the last step that this one continues, or no_index
+  Column<Vec3>   point{"contact_point", "m"};                      // halfway between the surfaces
+  Column<Vec3>   normal{"normal", "1"};                            // unit, from b to a
+  Column<double> overlap{"overlap", "m"};                          // > 0 in contact
+  Column<double> radius_eff{"effective_radius", "m"};              // > 0: k = 4/3 E* sqrt(radius_eff) for this point
+  Column<Vec3>   anchor_a{"anchor_a", "m"}, anchor_b{"anchor_b", "m"};   // the point in the frames of the bodies
+  Column<Vec3>   force{"contact_force", "N"};                      // on a, at the point; -force on b
+  Column<Vec3>   spring{"tangential_spring", "m"};                 // history: displacement in the tangent plane
+  std::size_t rows() const { return geometry_a.data.size(); }
+  static constexpr auto columns() {
+    return std::tuple{&RigidContacts::geometry_a, &RigidContacts::geometry_b, &RigidContacts::slot, &RigidContacts::previous,
+                      &RigidContacts::point, &RigidContacts::normal, &RigidContacts::overlap, &RigidContacts::radius_eff,
+                      &RigidContacts::anchor_a, &RigidContacts::anchor_b, &RigidContacts::force, &RigidContacts::spring};
+  }
+};
+
 // Particles sorted by the cell of a grid: cell c holds order[start[c] .. start[c+1]).
 struct CellGrid {
   Column<Index> cell{"cell", "1"};                                 // of each particle
@@ -211,11 +238,20 @@ struct CellGrid {
   }
 };
 
-// What the solver of nonsmooth DEM moves: a row per particle, then one per row of BodyContacts, the place of the body that is touched.
+// What the solver of nonsmooth DEM moves: a row per particle, one per row of BodyContacts - the place of the body that is
+// touched - and one per rigid body.
 struct SolverBodies {
-  Column<SolverBody> state{"solver_state", "m/s, 1/kg, rad/s, 1/(kg m^2)"};
+  Column<SolverBody>     state{"solver_state", "m/s, 1/kg, rad/s, 1/(kg m^2)"};
+  Column<InverseInertia> inverse_inertia{"inverse_inertia", "1/(kg m^2)"};   // by body; empty where none is dynamic
   std::size_t rows() const { return state.data.size(); }
-  static constexpr auto columns() { return std::tuple{&SolverBodies::state}; }
+  static constexpr auto columns() { return std::tuple{&SolverBodies::state, &SolverBodies::inverse_inertia}; }
+};
+
+// The contacts of dynamic rigid bodies: with particles by ascending (id, geometry, slot), then with bodies as in RigidContacts.
+struct HubContacts {
+  Column<HubContact> contact{"hub_contact", "1"};
+  std::size_t rows() const { return contact.data.size(); }
+  static constexpr auto columns() { return std::tuple{&HubContacts::contact}; }
 };
 
 // Cubes of space with the contacts of the particles in them, by colour: those of colour c are the blocks
@@ -282,6 +318,6 @@ struct Search {
 };
 
 using World = std::tuple<Particles, Neighbours, Neighbourhood, Contacts, PreviousContacts, Incidence, BodyContacts, PreviousBodyContacts, BodyIncidence, Triangles,
-                         Bodies, Geometries, CellGrid, SolverBodies, ContactBlocks, Solver, Clock, Search>;
+                         Bodies, Geometries, RigidPairs, RigidContacts, CellGrid, SolverBodies, ContactBlocks, HubContacts, Solver, Clock, Search>;
 
 }  // namespace skred

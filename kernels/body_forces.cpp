@@ -25,4 +25,16 @@ std::vector<BodyLoad> body_loads(std::span<const Index> particle, std::span<cons
   return loads;
 }
 
+void add_rigid_loads(std::vector<BodyLoad>& loads, std::span<const Index> geometry_a, std::span<const Index> geometry_b,
+                     std::span<const Vec3> point, std::span<const Vec3> force, std::span<const Index> body_of_geometry,
+                     std::span<const Pose> pose) {
+  for (std::size_t c = 0; c < point.size(); ++c) {
+    const Index a = body_of_geometry[geometry_a[c]], b = body_of_geometry[geometry_b[c]];
+    loads[a].force += force[c];
+    loads[a].torque += cross(point[c] - pose[a].position, force[c]);
+    loads[b].force -= force[c];
+    loads[b].torque -= cross(point[c] - pose[b].position, force[c]);
+  }
+}
+
 }  // namespace skred

@@ -122,37 +122,19 @@ class Grouping {
   std::uint64_t full_ = 0;
 };
 
-// A gap that is nothing but rounding, in effective radii: spheres placed to touch do.
-constexpr double contact_slack = 1e-9;
-
-// A gap may close to this overlap within the step, in effective radii: then the contact gets its compliance. Closed to nothing, it
-// would stay rigid for ever.
-constexpr double gap_allowance = 1e-3;
-
 // The rows of one contact (engine/contact_rows.h).
 void write_rows(const Touch& t, const RowOptions& o, const SolverBody* bodies, const Grouping::Place& at) {
   auto& [g, source, lane] = at;
-  const double h = o.time_step;
   const SolverBody &a = bodies[t.a], &b = bodies[t.b];
   const double w_n = a.linear.s + b.linear.s;
-  double compliance = 0, factor = 0;
-  if (t.overlap > 0) {
-    const double stiffness = t.k->hertz * std::sqrt(t.radius_eff) * std::sqrt(t.overlap);    // k sqrt(overlap)
-    const double dashpot = 4 / std::sqrt(5.0) * t.k->damping_ratio * std::sqrt(t.mass_eff / stiffness);
-    const double tau = std::max(o.damping_steps * h, dashpot);
-    factor = 1 / (1 + 4 * tau / h);
-    compliance = 16.0 / 5.0 * factor / (h * h * stiffness);
-  }
-  const bool impact = o.impacts && t.velocity < -o.impact_speed && -t.overlap <= -t.velocity * h;
-  const bool touching = t.overlap > -contact_slack * t.radius_eff;
-
+  const NormalRow row = normal_row(t.overlap, t.radius_eff, t.mass_eff, *t.k, o);
+  const bool impact = is_impact(t.overlap, t.velocity, o);
   g.a[lane] = t.a, g.b[lane] = t.b;
   g.normal.x[lane] = t.normal.x, g.normal.y[lane] = t.normal.y, g.normal.z[lane] = t.normal.z;
   g.arm_a[lane] = t.arm_a, g.arm_b[lane] = t.arm_b;
-  if (impact) g.bias[lane] = -t.k->restitution * t.velocity;                                 // Newton: u_n+ = -e u_n-
-  else g.bias[lane] = touching ? 0 : -std::numeric_limits<double>::infinity();          // a gap takes no part in impacts
-  g.compliance[lane] = compliance;
-  g.normal_step[lane] = 1 / (w_n + compliance);
+  g.bias[lane] = impact_bias(t.overlap, t.radius_eff, t.velocity, impact, *t.k);
+  g.compliance[lane] = row.compliance;
+  g.normal_step[lane] = 1 / (w_n + row.compliance);
   g.free_step[lane] = 1 / w_n;
   g.tangential_step[lane] = 1 / (w_n + t.arm_a * t.arm_a * a.angular.s + t.arm_b * t.arm_b * b.angular.s);
   g.rolling_step[lane] = 1 / (a.angular.s + b.angular.s);
@@ -162,11 +144,39 @@ void write_rows(const Touch& t, const RowOptions& o, const SolverBody* bodies, c
   source.of_body[lane] = t.of_body;
   source.impact[lane] = impact;
   source.overlap[lane] = t.overlap;
-  source.allowance[lane] = gap_allowance * t.radius_eff;
-  source.velocity_factor[lane] = factor;
+  source.allowance[lane] = gap_allowance(t.radius_eff);
+  source.velocity_factor[lane] = row.velocity_factor;
 }
 
+// A gap that is nothing but rounding, in effective radii: spheres placed to touch do.
+constexpr double contact_slack = 1e-9;
+
 }  // namespace
+
+NormalRow normal_row(double overlap, double radius_eff, double mass_eff, const RowCoefficients& k, const RowOptions& o) {
+  if (!(overlap > 0)) return {};
+  const double h = o.time_step, stiffness = k.hertz * std::sqrt(radius_eff) * std::sqrt(overlap);    // k sqrt(overlap)
+  const double dashpot = 4 / std::sqrt(5.0) * k.damping_ratio * std::sqrt(mass_eff / stiffness);
+  const double tau = std::max(o.damping_steps * h, dashpot), factor = 1 / (1 + 4 * tau / h);
+  return {16.0 / 5.0 * factor / (h * h * stiffness), factor};
+}
+
+bool is_impact(double overlap, double velocity, const RowOptions& o) {
+  return o.impacts && velocity < -o.impact_speed && -overlap <= -velocity * o.time_step;
+}
+
+double impact_bias(double overlap, double radius_eff, double velocity, bool impact, const RowCoefficients& k) {
+  if (impact) return -k.restitution * velocity;                                              // Newton: u_n+ = -e u_n-
+  return overlap > -contact_slack * radius_eff ? 0 : -std::numeric_limits<double>::infinity();
+}
+
+bool may_close(double overlap, double radius_eff, double velocity, const RowOptions& o) {
+  const double h = o.time_step;
+  return overlap > 0 || -overlap <= std::max(0.0, -h * velocity) + h * h * norm(o.gravity) + contact_slack * radius_eff;
+}
+
+// Closed to nothing a contact would have no compliance, and stay rigid for ever.
+double gap_allowance(double radius_eff) { return 1e-3 * radius_eff; }
 
 template <class Space>
 void ConstraintSetup<Space>::operator()(Parallel parallel, Read<&Particles::id> id, Read<&Particles::position> position, Read<&Particles::velocity> velocity,
@@ -175,12 +185,15 @@ void ConstraintSetup<Space>::operator()(Parallel parallel, Read<&Particles::id> 
                                         Read<&BodyIncidence::first> first_body, Read<&BodyContacts::geometry> geometry, Read<&BodyContacts::overlap> overlap,
                                         Read<&BodyContacts::normal> normal, Read<&BodyContacts::curvature> curvature, Read<&Geometries::body> body,
                                         Read<&Geometries::material> wall_material, Read<&Bodies::motion> motion, Read<&Bodies::pose> pose,
-                                        Read<&Bodies::velocity> body_velocity, Read<&Bodies::angular_velocity> body_spin, Resize<SolverBodies> bodies,
-                                        Resize<ContactBlocks> blocks) const {
+                                        Read<&Bodies::velocity> body_velocity, Read<&Bodies::angular_velocity> body_spin, Read<&Bodies::mass> body_mass,
+                                        Resize<SolverBodies> bodies, Resize<ContactBlocks> blocks) const {
   const std::size_t n = position.size();
   const double h = options.time_step;
-  resize_for_overwrite(bodies->state.data, n + geometry.size());
+  const std::size_t first_of_bodies = n + geometry.size();
+  resize_for_overwrite(bodies->state.data, first_of_bodies + motion.size());
   SolverBody* const state = bodies->state.data.data();
+  for (std::size_t b = 0; b < motion.size(); ++b)
+    state[first_of_bodies + b] = {{body_velocity[b], motion[b] == Motion::dynamic ? 1 / body_mass[b] : 0}, {body_spin[b], 0}};
 
   // Particles, their greatest speed, and the corner of the grid of blocks.
   constexpr std::size_t chunk = 1024;
@@ -200,8 +213,7 @@ void ConstraintSetup<Space>::operator()(Parallel parallel, Read<&Particles::id> 
   for (const Seen& s : seen) all = {{std::min(all.low.x, s.low.x), std::min(all.low.y, s.low.y), std::min(all.low.z, s.low.z)}, std::max(all.speed2, s.speed2)};
 
   // Two particles can meet within this step if their gap is less than this.
-  const double fall = h * h * norm(options.gravity);
-  const double widest_gap = 2 * h * std::sqrt(all.speed2) + fall + contact_slack * largest_radius;
+  const double widest_gap = 2 * h * std::sqrt(all.speed2) + h * h * norm(options.gravity) + contact_slack * largest_radius;
   const double edge = std::max(8 * largest_radius, 2 * (2 * largest_radius + widest_gap));
   const BlockGrid grid = block_grid(all.low, edge, space);
 
@@ -241,9 +253,8 @@ void ConstraintSetup<Space>::operator()(Parallel parallel, Read<&Particles::id> 
       sources.clear();
       Grouping grouping(used, groups, sources);
       Index contacts = 0, impacts = 0;
-      // A gap counts if it can close within the step: by itself, or because gravity presses from behind.
       const auto add = [&](const Touch& t) {
-        if (!(t.overlap > 0 || -t.overlap <= std::max(0.0, -h * t.velocity) + fall + contact_slack * t.radius_eff)) return;
+        if (!may_close(t.overlap, t.radius_eff, t.velocity, options)) return;
         const Grouping::Place at = grouping.place(t);
         write_rows(t, options, state, at);
         ++contacts;
@@ -263,13 +274,12 @@ void ConstraintSetup<Space>::operator()(Parallel parallel, Read<&Particles::id> 
         }
         for (Index c = first_body[p]; c < first_body[p + 1]; ++c) {
           const Vec3 dir = normal[c];
-          if (dir == Vec3{}) continue;                       // a mesh's place that is not in use
           const Index g = geometry[c], w = body[g];
+          if (dir == Vec3{} || motion[w] == Motion::dynamic) continue;   // a mesh's place that is not in use; kernels/hub_contacts.h
           const double arm = radius[p] - 0.5 * overlap[c];
           const Vec3 point = position[p] - arm * dir;
           const auto wall = static_cast<Index>(n + c);
           state[wall] = {{body_velocity[w] + cross(body_spin[w], point - pose[w].position), 0}, {body_spin[w], 0}};
-          if (motion[w] == Motion::dynamic) continue;
           add({p, wall, c, true, dir, overlap[c], radius[p] / (1 + radius[p] * curvature[c]), mass[p], arm, 0,
                dot(velocity[p] - state[wall].linear.v, dir), &coefficients[material[p] * materials + wall_material[g]]});
         }

@@ -28,6 +28,18 @@ struct RowOptions {
   bool impacts, rolling;     // is there an impact stage, are there rolling rows
 };
 
+// S and Y of a normal row (engine/contact_rows.h); both 0 for a gap.
+struct NormalRow { double compliance = 0, velocity_factor = 0; };
+NormalRow normal_row(double overlap, double radius_eff, double mass_eff, const RowCoefficients&, const RowOptions&);
+
+// Whether the impact stage turns a contact round: it closes faster than v_imp, and within the step.
+bool is_impact(double overlap, double velocity, const RowOptions&);
+// The velocity that it must leave with in the impact stage; a gap that is no impact takes no part.
+double impact_bias(double overlap, double radius_eff, double velocity, bool impact, const RowCoefficients&);
+// A gap has rows if it can close within the step: by itself, or because gravity presses from behind.
+bool may_close(double overlap, double radius_eff, double velocity, const RowOptions&);
+double gap_allowance(double radius_eff);   // [m] overlap to which a gap may close
+
 template <class Space> struct ConstraintSetup {
   static constexpr const char* name = "constraint_setup";
 
@@ -43,8 +55,8 @@ template <class Space> struct ConstraintSetup {
                   Read<&BodyIncidence::first> first_body, Read<&BodyContacts::geometry> geometry, Read<&BodyContacts::overlap> overlap,
                   Read<&BodyContacts::normal> normal, Read<&BodyContacts::curvature> curvature, Read<&Geometries::body> body,
                   Read<&Geometries::material> wall_material, Read<&Bodies::motion> motion, Read<&Bodies::pose> pose,
-                  Read<&Bodies::velocity> body_velocity, Read<&Bodies::angular_velocity> body_spin, Resize<SolverBodies> bodies,
-                  Resize<ContactBlocks> blocks) const;
+                  Read<&Bodies::velocity> body_velocity, Read<&Bodies::angular_velocity> body_spin, Read<&Bodies::mass> body_mass,
+                  Resize<SolverBodies> bodies, Resize<ContactBlocks> blocks) const;
 };
 
 extern template struct ConstraintSetup<OpenSpace>;

@@ -22,16 +22,25 @@ template <class Visit> void by_colour(const Parallel& parallel, std::span<const 
 
 struct Outcome { int sweeps = 0; double residual = 0; };
 
-SweepChange sum(std::span<const SweepChange> change) {
-  SweepChange all;
+// What the sweeps of a step work on.
+struct System {
+  std::span<const Index> first_of_colour;
+  std::span<Buffer<ContactGroup>> groups;
+  std::span<SolverBody> bodies;
+  std::span<SweepChange> change;
+  std::span<HubContact> hubs;
+  std::span<const InverseInertia> inertia;
+};
+
+SweepChange sum(std::span<const SweepChange> change, SweepChange all) {
   for (const SweepChange& c : change) all.change += c.change, all.total += c.total;
   return all;
 }
 
 double residual_of(const SweepChange& all) { return all.change > 0 ? all.change / all.total : 0; }
 
-Outcome solve(const Parallel& parallel, const SweepOptions& o, std::span<const Index> first_of_colour, std::span<Buffer<ContactGroup>> groups,
-              std::span<SolverBody> bodies, std::span<SweepChange> change) {
+Outcome solve(const Parallel& parallel, const SweepOptions& o, const System& of) {
+  const auto& [first_of_colour, groups, bodies, change, hubs, inertia] = of;
   constexpr int between_measures = 4;
   Outcome out;
   while (out.sweeps < o.most) {
@@ -39,8 +48,10 @@ Outcome solve(const Parallel& parallel, const SweepOptions& o, std::span<const I
     const bool last = out.sweeps == o.most, measured = last || (o.tolerance > 0 && out.sweeps % between_measures == 0);
     const SweepGroups sweep = measured ? o.measured_sweep : o.sweep;
     by_colour(parallel, first_of_colour, [&](std::size_t b) { sweep(groups[b].data(), groups[b].size(), bodies.data(), o.separation_speed, change[b]); });
+    SweepChange of_hubs;
+    sweep_hubs(hubs, bodies, inertia, o.kind, o.separation_speed, of_hubs);
     if (!measured) continue;
-    out.residual = residual_of(sum(change));
+    out.residual = residual_of(sum(change, of_hubs));
     if (out.residual <= o.tolerance) break;
   }
   return out;
@@ -48,9 +59,10 @@ Outcome solve(const Parallel& parallel, const SweepOptions& o, std::span<const I
 
 // The same, but a block is visited only when it has an impact, or when it or a neighbour has just changed by more than the tolerance
 // allows: few impacts need not wake everyone.
-Outcome solve_near(std::span<const Index> impacts, std::span<const BlockNeighbours> neighbours, const Parallel& parallel, const SweepOptions& o,
-                   std::span<const Index> first_of_colour, std::span<Buffer<ContactGroup>> groups, std::span<SolverBody> bodies,
-                   std::span<SweepChange> change) {
+// A dynamic body may reach anywhere: with one, everyone is awake.
+Outcome solve_near(std::span<const Index> impacts, std::span<const BlockNeighbours> neighbours, const Parallel& parallel, const SweepOptions& o, const System& of) {
+  if (!of.hubs.empty()) return solve(parallel, o, of);
+  const auto& [first_of_colour, groups, bodies, change, hubs, inertia] = of;
   std::vector<std::atomic<char>> awake(groups.size());       // of blocks of one colour only others are neighbours: no order in which
   for (std::size_t b = 0; b < awake.size(); ++b) awake[b].store(impacts[b] > 0, std::memory_order_relaxed);   // a colour is run can matter
   Outcome out;
@@ -65,7 +77,7 @@ Outcome solve_near(std::span<const Index> impacts, std::span<const BlockNeighbou
       for (const Index n : neighbours[b])
         if (n != no_index) awake[n].store(1, std::memory_order_relaxed);
     });
-    const SweepChange all = sum(change);
+    const SweepChange all = sum(change, {});
     enough = o.tolerance * all.total;
     out.residual = residual_of(all);
     if (std::none_of(awake.begin(), awake.end(), [](const auto& a) { return a.load(std::memory_order_relaxed) != 0; })) break;
@@ -80,13 +92,20 @@ void put(const Vec3& v, ContactGroup::Vectors& to, std::size_t lane) { to.x[lane
 
 void ImpactSolve::operator()(Parallel parallel, Read<&ContactBlocks::first_of_colour> first_of_colour, Read<&ContactBlocks::impacts> impacts_of_block,
                              Read<&ContactBlocks::neighbours> neighbours, Update<&ContactBlocks::groups> groups, Update<&ContactBlocks::sources> sources, Update<&ContactBlocks::change> change,
-                             Update<&SolverBodies::state> bodies, Write<&Solver::impacts> impacts, Write<&Solver::impact_sweeps> sweeps_done,
+                             Update<&HubContacts::contact> hubs, Read<&SolverBodies::inverse_inertia> inertia, Update<&SolverBodies::state> bodies, Write<&Solver::impacts> impacts, Write<&Solver::impact_sweeps> sweeps_done,
                              Write<&Solver::impact_residual> residual) const {
-  impacts[0] = std::accumulate(impacts_of_block.begin(), impacts_of_block.end(), std::int64_t{0});
-  const Outcome done = impacts[0] > 0 ? solve_near(impacts_of_block, neighbours, parallel, sweeps, first_of_colour, groups, bodies, change) : Outcome{};
+  impacts[0] = std::accumulate(impacts_of_block.begin(), impacts_of_block.end(), std::int64_t{0}) +
+               std::count_if(hubs.begin(), hubs.end(), [](const HubContact& c) { return c.impact; });
+  const Outcome done = impacts[0] > 0 ? solve_near(impacts_of_block, neighbours, parallel, sweeps, {first_of_colour, groups, bodies, change, hubs, inertia})
+                                      : Outcome{};
   sweeps_done[0] = done.sweeps;
   residual[0] = done.residual;
   if (impacts[0] == 0) return;
+  for (HubContact& c : hubs) {
+    c.impact_impulse = c.normal_impulse * c.normal + c.friction_impulse;
+    c.normal_impulse = 0;
+    c.friction_impulse = {};
+  }
   parallel(groups.size(), blocks_at_a_time, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b)
       for (std::size_t k = 0; k < groups[b].size(); ++k) {
@@ -105,6 +124,7 @@ void ContactSolve<rolling>::operator()(Parallel parallel, Read<&Particles::id> i
                                        Read<&ContactBlocks::sources> sources, Update<&ContactBlocks::change> change,
                                        Read<&Contacts::spring> impulse, Read<&BodyContacts::spring> body_impulse,
                                        If<rolling, Read<&Contacts::rolling>> rolling_impulse, If<rolling, Read<&BodyContacts::rolling>> body_rolling_impulse,
+                                       Read<&RigidContacts::spring> rigid_impulse, Update<&HubContacts::contact> hubs, Read<&SolverBodies::inverse_inertia> inertia,
                                        Update<&SolverBodies::state> bodies, Write<&Solver::contacts> contacts, Write<&Solver::sweeps> sweeps_done,
                                        Update<&Solver::residual> residual, Update<&Solver::unsolved> unsolved) const {
   const double h = time_step;
@@ -121,9 +141,13 @@ void ContactSolve<rolling>::operator()(Parallel parallel, Read<&Particles::id> i
         g.bias[l] = s.overlap[l] > 0 ? 16.0 / 5.0 * (factor / h) * s.overlap[l] + factor * u_n : (s.overlap[l] - s.allowance[l]) / h;
       });
   });
-  parallel(id.size(), 4096, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p) bodies[p].linear.v += h * gravity;
-  });
+  set_hub_biases(hubs, bodies, h);
+  const auto fall = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p)
+      if (bodies[p].linear.s > 0) bodies[p].linear.v += h * gravity;
+  };
+  parallel(id.size(), 4096, fall);
+  fall(bodies.size() - inertia.size(), bodies.size());
 
   constexpr double trusted = 0.05;                           // residual of the last step up to which its impulses are taken whole
   const double share = residual[0] <= trusted ? 1 : 0.5;
@@ -154,8 +178,13 @@ void ContactSolve<rolling>::operator()(Parallel parallel, Read<&Particles::id> i
       });
     });
 
-  const Outcome done = solve(parallel, sweeps, first_of_colour, groups, bodies, change);
-  contacts[0] = std::accumulate(contacts_of_block.begin(), contacts_of_block.end(), std::int64_t{0});
+  if (warm_start) {
+    if constexpr (rolling) warm_start_hubs(hubs, bodies, inertia, share, body_impulse, body_rolling_impulse, rigid_impulse);
+    else warm_start_hubs(hubs, bodies, inertia, share, body_impulse, {}, rigid_impulse);
+  }
+
+  const Outcome done = solve(parallel, sweeps, {first_of_colour, groups, bodies, change, hubs, inertia});
+  contacts[0] = std::accumulate(contacts_of_block.begin(), contacts_of_block.end(), std::int64_t(hubs.size()));
   sweeps_done[0] = done.sweeps;
   residual[0] = done.residual;
   unsolved[0] += done.residual > sweeps.tolerance && sweeps.tolerance > 0;

@@ -6,7 +6,7 @@
 //                those were far from the solution: too much of a wrong answer makes a tall stack unstable.
 #pragma once
 #include "engine/access.h"
-#include "kernels/contact_sweep.h"
+#include "kernels/hub_contacts.h"
 
 namespace skred {
 
@@ -14,6 +14,7 @@ struct SweepOptions {
   int most = 1;                  // sweeps, >= 1
   double tolerance = 0;          // stop when a sweep changes less than this part of all impulses; 0: never
   double separation_speed = 0;   // [m/s] see SweepKind::limited
+  SweepKind kind;                // of the contacts of dynamic bodies
   SweepGroups sweep = nullptr, measured_sweep = nullptr;
 };
 
@@ -24,7 +25,7 @@ struct ImpactSolve {
 
   void operator()(Parallel parallel, Read<&ContactBlocks::first_of_colour> first_of_colour, Read<&ContactBlocks::impacts> impacts_of_block,
                   Read<&ContactBlocks::neighbours> neighbours, Update<&ContactBlocks::groups> groups, Update<&ContactBlocks::sources> sources, Update<&ContactBlocks::change> change,
-                  Update<&SolverBodies::state> bodies, Write<&Solver::impacts> impacts, Write<&Solver::impact_sweeps> sweeps_done,
+                  Update<&HubContacts::contact> hubs, Read<&SolverBodies::inverse_inertia> inertia, Update<&SolverBodies::state> bodies, Write<&Solver::impacts> impacts, Write<&Solver::impact_sweeps> sweeps_done,
                   Write<&Solver::impact_residual> residual) const;
 };
 
@@ -40,6 +41,7 @@ template <bool rolling> struct ContactSolve {
                   Read<&ContactBlocks::contacts> contacts_of_block, Update<&ContactBlocks::groups> groups, Read<&ContactBlocks::sources> sources,
                   Update<&ContactBlocks::change> change, Read<&Contacts::spring> impulse, Read<&BodyContacts::spring> body_impulse,
                   If<rolling, Read<&Contacts::rolling>> rolling_impulse, If<rolling, Read<&BodyContacts::rolling>> body_rolling_impulse,
+                  Read<&RigidContacts::spring> rigid_impulse, Update<&HubContacts::contact> hubs, Read<&SolverBodies::inverse_inertia> inertia,
                   Update<&SolverBodies::state> bodies, Write<&Solver::contacts> contacts, Write<&Solver::sweeps> sweeps_done,
                   Update<&Solver::residual> residual, Update<&Solver::unsolved> unsolved) const;
 };

@@ -26,19 +26,21 @@ void MoveBodies::operator()(Read<&Clock::step> step, Read<&Bodies::motion> motio
   }
 }
 
-void ForceApplicationBody::operator()(Read<&BodyContacts::particle> particle, Read<&BodyContacts::geometry> geometry,
-                                      Read<&BodyContacts::overlap> overlap, Read<&BodyContacts::normal> normal,
-                                      Read<&BodyContacts::force> force, Read<&BodyContacts::rolling_torque> rolling_torque,
-                                      Read<&Particles::id> id, Read<&Particles::position> position,
-                                      Read<&Particles::radius> radius, Read<&Geometries::body> body,
-                                      Read<&Bodies::motion> motion, Read<&Bodies::pose> pose, Read<&Bodies::mass> mass,
-                                      Read<&Bodies::inertia> inertia, Write<&Bodies::force> body_force,
-                                      Write<&Bodies::torque> body_torque, Update<&Bodies::acceleration> acceleration,
-                                      Update<&Bodies::angular_acceleration> angular_acceleration,
-                                      Update<&Bodies::previous_acceleration> previous_acceleration,
-                                      Update<&Bodies::previous_angular_acceleration> previous_angular_acceleration,
-                                      Update<&Bodies::velocity> velocity, Update<&Bodies::angular_velocity> spin) const {
-  const auto loads = body_loads(particle, geometry, overlap, normal, force, rolling_torque, id, position, radius, body, pose);
+template <bool rigid_contacts>
+void ForceApplicationBody<rigid_contacts>::operator()(
+    Read<&BodyContacts::particle> particle, Read<&BodyContacts::geometry> geometry, Read<&BodyContacts::overlap> overlap,
+    Read<&BodyContacts::normal> normal, Read<&BodyContacts::force> force, Read<&BodyContacts::rolling_torque> rolling_torque,
+    Read<&Particles::id> id, Read<&Particles::position> position, Read<&Particles::radius> radius,
+    If<rigid_contacts, Read<&RigidContacts::geometry_a>> geometry_a, If<rigid_contacts, Read<&RigidContacts::geometry_b>> geometry_b,
+    If<rigid_contacts, Read<&RigidContacts::point>> point, If<rigid_contacts, Read<&RigidContacts::force>> rigid_force,
+    Read<&Geometries::body> body, Read<&Bodies::motion> motion, Read<&Bodies::pose> pose, Read<&Bodies::mass> mass,
+    Read<&Bodies::inertia> inertia, Write<&Bodies::force> body_force, Write<&Bodies::torque> body_torque,
+    Update<&Bodies::acceleration> acceleration, Update<&Bodies::angular_acceleration> angular_acceleration,
+    Update<&Bodies::previous_acceleration> previous_acceleration,
+    Update<&Bodies::previous_angular_acceleration> previous_angular_acceleration, Update<&Bodies::velocity> velocity,
+    Update<&Bodies::angular_velocity> spin) const {
+  auto loads = body_loads(particle, geometry, overlap, normal, force, rolling_torque, id, position, radius, body, pose);
+  if constexpr (rigid_contacts) add_rigid_loads(loads, geometry_a, geometry_b, point, rigid_force, body, pose);
   for (std::size_t b = 0; b < motion.size(); ++b) {
     body_force[b] = loads[b].force;
     body_torque[b] = loads[b].torque;
@@ -57,5 +59,8 @@ void ForceApplicationBody::operator()(Read<&BodyContacts::particle> particle, Re
     angular_acceleration[b] = alpha;
   }
 }
+
+template struct ForceApplicationBody<false>;
+template struct ForceApplicationBody<true>;
 
 }  // namespace skred

@@ -24,8 +24,8 @@ struct MoveBodies {
                   Update<&Bodies::velocity> velocity, Update<&Bodies::angular_velocity> spin) const;
 };
 
-// Total loads on dynamic bodies, and the velocities that follow.
-struct ForceApplicationBody {
+// Total loads on all bodies, and the velocities of dynamic ones that follow.
+template <bool rigid_contacts> struct ForceApplicationBody {
   static constexpr const char* name = "force_application_body";
 
   Vec3 gravity;       // [m/s^2]
@@ -34,13 +34,18 @@ struct ForceApplicationBody {
   void operator()(Read<&BodyContacts::particle> particle, Read<&BodyContacts::geometry> geometry,
                   Read<&BodyContacts::overlap> overlap, Read<&BodyContacts::normal> normal, Read<&BodyContacts::force> force,
                   Read<&BodyContacts::rolling_torque> rolling_torque, Read<&Particles::id> id, Read<&Particles::position> position,
-                  Read<&Particles::radius> radius, Read<&Geometries::body> body, Read<&Bodies::motion> motion,
-                  Read<&Bodies::pose> pose, Read<&Bodies::mass> mass, Read<&Bodies::inertia> inertia,
+                  Read<&Particles::radius> radius, If<rigid_contacts, Read<&RigidContacts::geometry_a>> geometry_a,
+                  If<rigid_contacts, Read<&RigidContacts::geometry_b>> geometry_b, If<rigid_contacts, Read<&RigidContacts::point>> point,
+                  If<rigid_contacts, Read<&RigidContacts::force>> rigid_force, Read<&Geometries::body> body,
+                  Read<&Bodies::motion> motion, Read<&Bodies::pose> pose, Read<&Bodies::mass> mass, Read<&Bodies::inertia> inertia,
                   Write<&Bodies::force> body_force, Write<&Bodies::torque> body_torque, Update<&Bodies::acceleration> acceleration,
                   Update<&Bodies::angular_acceleration> angular_acceleration,
                   Update<&Bodies::previous_acceleration> previous_acceleration,
                   Update<&Bodies::previous_angular_acceleration> previous_angular_acceleration,
                   Update<&Bodies::velocity> velocity, Update<&Bodies::angular_velocity> spin) const;
 };
+
+extern template struct ForceApplicationBody<false>;
+extern template struct ForceApplicationBody<true>;
 
 }  // namespace skred

@@ -7,6 +7,7 @@
 #include "scenes/errors.h"
 #include "scenes/fill.h"
 #include "tasks/relax.h"
+#include "tasks/rigid_checks.h"
 
 namespace skred {
 
@@ -93,6 +94,22 @@ void check_start(const Scene& scene, Prepared& p) {
                                 "longest shift {:.3g} mm", r.sweeps, r.overlap_before, r.overlap_after, r.longest_shift * 1e3));
 }
 
+// Before contacts are looked for: touch() knows nothing of these.
+void check_shapes(const Scene& scene, const Prepared& p) {
+  std::string all;
+  for (const UnsupportedPair& u : unsupported_pairs(p.world, p.model))
+    all += fmt::format("{}bodies '{}' and '{}' may touch: {}", all.empty() ? "" : "\n", scene.bodies[u.body_a].name, scene.bodies[u.body_b].name, u.why);
+  if (!all.empty()) throw SceneRefused(all);
+}
+
+void check_bodies_at_start(const Scene& scene, const Prepared& p) {
+  const RigidOverlap found = rigid_overlap_at_start(p.world, p.model);
+  if (found.ratio > scene.start.overlap_limit)
+    throw SceneRefused(fmt::format("overlap at the start: bodies '{}' and '{}' by {:.3g} of the smaller outer radius, allowed {:.3g} "
+                                   "(start.overlap_limit)", scene.bodies[found.body_a].name, scene.bodies[found.body_b].name, found.ratio,
+                                   scene.start.overlap_limit));
+}
+
 void check_bounds(const Scene& scene, const World& world) {
   if (!scene.bounds || scene.out_of_bounds != OutOfBounds::stop) return;
   const auto& x = std::get<Particles>(world).position.data;
@@ -113,11 +130,13 @@ Prepared prepare(const Scene& scene, bool force_time_step) {
   const ParticleSet set = make_particles(scene);
   Prepared p{build_world(scene, set), build_model(scene), {}, {}, {}};
   check_restitution(scene, p.model);
+  check_shapes(scene, p);
   check_periodic(scene, p.world, p.model);
   check_bounds(scene, p.world);
   choose_time_step(scene, force_time_step, p);
   check_end_time(scene, p);
   if (p.model.normal_law) check_start(scene, p);
+  check_bodies_at_start(scene, p);
   return p;
 }
 

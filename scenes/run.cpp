@@ -21,6 +21,7 @@
 #include "scenes/progress.h"
 #include "scenes/recorder.h"
 #include "scenes/schema.h"
+#include "tasks/rigid_checks.h"
 
 namespace skred {
 
@@ -129,6 +130,10 @@ void take_row(Run& r) {
   if (r.last.max_overlap_ratio > r.scene.limits.overlap)
     throw NumericalFailure(fmt::format("{}, particle {}: overlap of {:.3g} of the radius, allowed {:g} (limits.overlap); {}", when(r),
                                        r.last.max_overlap_particle, r.last.max_overlap_ratio, r.scene.limits.overlap, likely_cause(r)));
+  if (const RigidOverlap o = greatest_rigid_overlap(r.sim.world()); o.ratio > r.scene.limits.overlap)
+    throw NumericalFailure(fmt::format("{}, bodies '{}' and '{}': overlap of {:.3g} of the smaller outer radius, allowed {:g} (limits.overlap); {}",
+                                       when(r), r.scene.bodies[o.body_a].name, r.scene.bodies[o.body_b].name, o.ratio,
+                                       r.scene.limits.overlap, likely_cause(r)));
   if (!std::isfinite(r.last.kinetic_energy + r.last.rotational_energy))   // what the last step did, no later one sees
     throw NumericalFailure(fmt::format("{}: the kinetic energy is not a number; {}", when(r), likely_cause(r)));
 }

@@ -2,6 +2,7 @@
 #include "kernels/broadphase.h"
 #include "kernels/broadphase_body.h"
 #include "kernels/check_motion.h"
+#include "kernels/contact_geometry_body_body.h"
 #include "kernels/contact_hashing.h"
 #include "kernels/contact_listing.h"
 #include "kernels/integrate.h"
@@ -39,6 +40,14 @@ void add_collision(Task& task, const World& w, const Model& m, const Effects& e,
     else if (e.meshes) task.add(ContactHashingBody<false, false>{});
     task.add(ContactGeometryBody{});
   }
+}
+
+void add_rigid_collision(Task& task, const World& w, const Effects& e, double margin, bool history) {
+  if (!e.rigid_contacts) return;
+  const auto& shapes = std::get<Geometries>(w).shape.data;
+  const auto solids = std::make_shared<const std::vector<Solid>>(shapes.begin(), shapes.end());
+  task.add(BroadphaseBodyBody{margin});
+  task.add(ContactGeometryBodyBody{margin, history, solids});
 }
 
 namespace {

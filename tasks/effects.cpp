@@ -93,6 +93,9 @@ Effects decide_effects(const World& w, const Model& m) {
                     "a geometry is a mesh", "no geometry is a mesh");
   e.dynamic_bodies = decide("dynamic bodies", any_motion([](Motion x) { return x == Motion::dynamic; }), "a body is dynamic",
                             "no body is dynamic; forces on bodies are summed when statistics are sampled");
+  e.rigid_contacts = decide("contacts between bodies", m.normal_law && e.dynamic_bodies && motion.size() > 1,
+                            "a dynamic body may touch " + std::string(motion.size() == 2 ? "the other body" : "the other bodies"),
+                            !m.normal_law ? "contact: normal: none" : e.dynamic_bodies ? "there is one body" : "no body is dynamic");
   e.moving_bodies = decide("moving bodies", any_motion([](Motion x) { return x != Motion::fixed; }), "a body moves", "every body is static");
   const bool nonsmooth = m.method == Method::ndem;
   if (nonsmooth)

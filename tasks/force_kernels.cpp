@@ -1,5 +1,6 @@
 // tasks/force_kernels.cpp - from the laws that a scene chooses to one instance of the fused force kernels.
 #include <cmath>
+#include "kernels/force_calculation_body_body.h"
 #include "kernels/force_calculation_particle_body.h"
 #include "kernels/force_calculation_particle_particle.h"
 #include "kernels/laws.h"
@@ -16,9 +17,14 @@ LawCoefficients coefficients(const PairCoefficients& p) {
   return {2 * p.young_eff, 8 * p.shear_eff, beta * std::sqrt(2 * p.young_eff), beta * std::sqrt(8 * p.shear_eff), p.friction, p.rolling_friction};
 }
 
-template <class Law> void add_kernels(Task& task, const World& w, const Model& m, const Effects& e, double h, Law law) {
+std::vector<LawCoefficients> coefficients(const PairTable& pairs) {
   std::vector<LawCoefficients> table;
-  for (const PairCoefficients& p : m.pairs.values) table.push_back(coefficients(p));
+  for (const PairCoefficients& p : pairs.values) table.push_back(coefficients(p));
+  return table;
+}
+
+template <class Law> void add_kernels(Task& task, const World& w, const Model& m, const Effects& e, double h, Law law) {
+  const std::vector<LawCoefficients> table = coefficients(m.pairs);
   const Particles& p = std::get<Particles>(w);
 
   const auto add_pairs = [&](auto kinds, auto space) {
@@ -45,6 +51,9 @@ template <bool damped> void choose(Task& task, const World& w, const Model& m, c
   else if (e.friction) add_kernels(task, w, m, e, h, FrictionOnly<damped>{});
   else if (e.rolling) add_kernels(task, w, m, e, h, RollingOnly<damped>{});
   else add_kernels(task, w, m, e, h, NormalOnly<damped>{});
+  const auto add_bodies = [&](auto law) { task.add(ForceCalculationBodyBody<decltype(law)>{law, m.pairs.count, coefficients(m.pairs), h}); };
+  if (e.rigid_contacts && e.friction) add_bodies(FrictionOnly<damped>{});
+  else if (e.rigid_contacts) add_bodies(NormalOnly<damped>{});
 }
 
 }  // namespace

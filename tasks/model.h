@@ -35,7 +35,7 @@ struct Model {
 
 // Which effects a scene calls for. Decided once, when the task is built; conservative: what can become non-zero stays in.
 struct Effects {
-  bool contacts, bodies, meshes, moving_bodies, dynamic_bodies;
+  bool contacts, bodies, meshes, moving_bodies, dynamic_bodies, rigid_contacts;
   bool normal, damping, friction, rolling;
   bool impacts;                                    // the impact stage of nonsmooth DEM
   bool rotation, orientation, history;

@@ -10,6 +10,7 @@
 #include "kernels/move_bodies.h"
 #include "kernels/restitution.h"
 #include "tasks/steps.h"
+#include "tasks/time_step.h"
 
 namespace skred {
 
@@ -24,7 +25,7 @@ std::vector<RowCoefficients> coefficients(const Model& m) {
 }
 
 template <bool impact, bool friction, bool rolling, bool limited> SweepOptions options(const Model& m, int most) {
-  return {most, m.solver.tolerance, m.solver.separation_speed.value_or(0),
+  return {most, m.solver.tolerance, m.solver.separation_speed.value_or(0), {impact, friction, rolling, limited, true},
           contact_sweep<SweepKind{impact, friction, rolling, limited, false}>(m.vector_path),
           contact_sweep<SweepKind{impact, friction, rolling, limited, true}>(m.vector_path)};
 }
@@ -40,8 +41,9 @@ template <bool rolling, class Space> void add_solver(Task& task, const World& w,
     task.add(InitialForces<Space, rolling>{space, m.pairs.count, coefficients(m)});
     return;
   }
-  task.add(ConstraintSetup<Space>{space, {h, m.solver.damping_steps, impact_speed_of(m), m.gravity, e.impacts, rolling}, m.pairs.count,
-                                  coefficients(m), largest_radius(w)});
+  const RowOptions rows{h, m.solver.damping_steps, impact_speed_of(m), m.gravity, e.impacts, rolling};
+  task.add(ConstraintSetup<Space>{space, rows, m.pairs.count, coefficients(m), largest_radius(w)});
+  if (e.dynamic_bodies) task.add(ConstraintSetupBody{rows, m.pairs.count, coefficients(m)});
   if (e.impacts)
     task.add(ImpactSolve{e.friction ? options<true, true, false, false>(m, m.solver.impact_iterations)
                                     : options<true, false, false, false>(m, m.solver.impact_iterations)});
@@ -49,6 +51,7 @@ template <bool rolling, class Space> void add_solver(Task& task, const World& w,
   task.add(ContactSolve<rolling>{limited ? contact_sweeps<rolling, true>(m, e) : contact_sweeps<rolling, false>(m, e), h, m.gravity,
                                  m.solver.warm_start});
   task.add(ImpulseApplication<rolling>{h});
+  if (e.dynamic_bodies) task.add(ImpulseApplicationBody{h});
 }
 
 }  // namespace
@@ -57,6 +60,7 @@ void add_ndem(Task& task, const World& world, const Model& model, bool initial) 
   const Effects e = decide_effects(world, model);
   if (initial && e.moving_bodies) task.add(MoveBodies{model.pieces, model.bodies_at_start, model.time_step, 0});
   add_collision(task, world, model, e, {false, e.history, e.rolling, false}, model.time_step);
+  add_rigid_collision(task, world, e, model.time_step * expected_speed(world, model), true);
   const auto add = [&](const auto& space) {
     if (e.rolling) add_solver<true>(task, world, model, e, space, initial);
     else add_solver<false>(task, world, model, e, space, initial);

@@ -31,6 +31,18 @@ template <class Visit> void for_each_touching_body(const Simulation& sim, const 
       if (c.overlap.data[k] > 0) visit(k, r);
 }
 
+std::vector<BodyLoad> loads_on_bodies(const World& w) {
+  const Particles& p = std::get<Particles>(w);
+  const BodyContacts& bc = std::get<BodyContacts>(w);
+  const RigidContacts& rc = std::get<RigidContacts>(w);
+  const auto& body = std::get<Geometries>(w).body.data;
+  const auto& pose = std::get<Bodies>(w).pose.data;
+  auto loads = body_loads(bc.particle.data, bc.geometry.data, bc.overlap.data, bc.normal.data, bc.force.data, bc.rolling_torque.data,
+                          p.id.data, p.position.data, p.radius.data, body, pose);
+  add_rigid_loads(loads, rc.geometry_a.data, rc.geometry_b.data, rc.point.data, rc.force.data, body, pose);
+  return loads;
+}
+
 }  // namespace
 
 Measures measure(const Simulation& sim) {
@@ -38,7 +50,6 @@ Measures measure(const Simulation& sim) {
   const Particles& p = std::get<Particles>(w);
   const Contacts& c = std::get<Contacts>(w);
   const BodyContacts& bc = std::get<BodyContacts>(w);
-  const Bodies& b = std::get<Bodies>(w);
   const Vec3 g = sim.model().gravity;
   const Vec3 up = g == Vec3{} ? Vec3{0, 0, 1} : -normalized(g);
   const std::vector<Index> rows = rows_by_id(p);
@@ -72,9 +83,7 @@ Measures measure(const Simulation& sim) {
     m.mean_speed /= double(rows.size());
     m.coordination_number = double(2 * m.contacts + m.body_contacts) / double(rows.size());
   }
-  m.loads = body_loads(bc.particle.data, bc.geometry.data, bc.overlap.data, bc.normal.data, bc.force.data,
-                       bc.rolling_torque.data, p.id.data, p.position.data, p.radius.data,
-                       std::get<Geometries>(w).body.data, b.pose.data);
+  m.loads = loads_on_bodies(w);
   return m;
 }
 
@@ -109,9 +118,7 @@ Frame make_frame(const Simulation& sim, const FrameOptions& options) {
     const Vec3 point = p.position.data[r] - (p.radius.data[r] - 0.5 * bc.overlap.data[k]) * bc.normal.data[k];
     f.body_contacts.push_back({p.id.data[r], std::get<Geometries>(w).body.data[bc.geometry.data[k]], point, bc.force.data[k]});
   });
-  const auto loads = body_loads(bc.particle.data, bc.geometry.data, bc.overlap.data, bc.normal.data, bc.force.data,
-                                bc.rolling_torque.data, p.id.data, p.position.data, p.radius.data,
-                                std::get<Geometries>(w).body.data, b.pose.data);
+  const auto loads = loads_on_bodies(w);
   for (std::size_t k = 0; k < b.rows(); ++k)
     f.bodies.push_back({b.pose.data[k], b.velocity.data[k], b.angular_velocity.data[k], loads[k].force, loads[k].torque});
   return f;

@@ -19,7 +19,7 @@ struct Measures {
   Index max_overlap_particle = no_index;              // id of a particle in that contact
   double mean_speed = 0, max_speed = 0;               // [m/s]
   double highest = 0;                                 // [m] greatest height of a particle's centre, against gravity (z without gravity)
-  std::vector<BodyLoad> loads;                        // by body: from the particles
+  std::vector<BodyLoad> loads;                        // by body: from particles and other bodies
 };
 
 Measures measure(const Simulation&);

@@ -29,13 +29,15 @@ void add_sdem(Task& task, const World& world, const Model& model, bool initial) 
   add_integrate(task, model, e, h);
   if (e.moving_bodies) task.add(MoveBodies{model.pieces, model.bodies_at_start, model.time_step, h});
   add_collision(task, world, model, e, {torques, e.friction, e.rolling, torques && !e.alike}, h);
+  add_rigid_collision(task, world, e, 0, e.friction);
   add_force_calculation(task, world, model, e, h);
 
   if (e.contacts && e.bodies) add_application<true, true>(task, model, e, h);
   else if (e.contacts) add_application<true, false>(task, model, e, h);
   else if (e.bodies) add_application<false, true>(task, model, e, h);
   else add_application<false, false>(task, model, e, h);
-  if (e.dynamic_bodies) task.add(ForceApplicationBody{model.gravity, h});
+  if (e.rigid_contacts) task.add(ForceApplicationBody<true>{model.gravity, h});
+  else if (e.dynamic_bodies) task.add(ForceApplicationBody<false>{model.gravity, h});
 }
 
 }  // namespace skred

@@ -44,6 +44,7 @@ Simulation::Simulation(World world, Model model, int threads)
                   &b.velocity, &b.angular_velocity, &b.inertia})
     c->data.resize(b.rows());
   b.mass.data.resize(b.rows());
+  if (effects_.dynamic_bodies) std::get<SolverBodies>(world_).inverse_inertia.data.resize(b.rows());
   b.searched.data = b.pose.data;
   model_.bodies_at_start = b.pose.data;
   model_.pieces.resize(b.rows());
@@ -110,6 +111,13 @@ std::uint64_t Simulation::state_hash() const {
       if (!bc.spring.data.empty()) hash.add(bc.spring.data[k]);
       if (!bc.rolling.data.empty()) hash.add(bc.rolling.data[k]);
     }
+  }
+  const RigidContacts& rc = std::get<RigidContacts>(world_);
+  for (std::size_t k = 0; k < rc.rows(); ++k) {
+    if (!(rc.overlap.data[k] > 0)) continue;
+    hash.add(rc.geometry_a.data[k]);
+    hash.add(rc.geometry_b.data[k]);
+    if (!rc.spring.data.empty()) hash.add(rc.spring.data[k]);
   }
   const Bodies& b = std::get<Bodies>(world_);
   for (std::size_t k = 0; k < b.rows(); ++k) {

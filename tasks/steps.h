@@ -17,6 +17,9 @@ void add_ndem(Task&, const World&, const Model&, bool initial = false);
 void add_collision(Task&, const World&, const Model&, const Effects&, const ContactColumns& columns, double time_step);
 void add_integrate(Task&, const Model&, const Effects&, double time_step);
 
+// Points where bodies touch each other, and those less than `margin` [m] apart; with `history` they remember.
+void add_rigid_collision(Task&, const World&, const Effects&, double margin, bool history);
+
 // Contact force kernels, one template instance per combination of laws (tasks/force_kernels.cpp).
 void add_force_calculation(Task&, const World&, const Model&, const Effects&, double time_step);
 

@@ -2,7 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <numbers>
+#include <stdexcept>
+#include "engine/geometry/solid.h"
 #include "kernels/restitution.h"
 
 namespace skred {
@@ -38,23 +41,89 @@ double lightest_share_of_a_body(const World& w, double radius) {
   return least;
 }
 
+struct Limits { double overlap, contact_time, springs, dashpots; };   // [m], [s]
+
+Limits limits_of_particles(const World& w, double young, double beta, double speed) {
+  const Particles& p = std::get<Particles>(w);
+  // The lightest particle against another like it has the shortest contact: t_c ~ (m^2 / (R E*^2 v))^(1/5).
+  std::size_t smallest = 0;
+  for (std::size_t k = 1; k < p.rows(); ++k)
+    if (p.mass.data[k] < p.mass.data[smallest]) smallest = k;
+  const double radius = p.radius.data[smallest];
+  const double mass = std::min(p.mass.data[smallest], lightest_share_of_a_body(w, radius)), mass_eff = mass / 2;
+  const double hertz = 4.0 / 3.0 * young * std::sqrt(radius / 2);
+  const double overlap = std::pow(5 * mass_eff * speed * speed / (4 * hertz), 0.4);
+  const double stiffness = 2 * young * std::sqrt(radius / 2 * overlap);
+  return {overlap, 2.9432 * overlap / speed, 2 / std::sqrt(8 * stiffness / mass),
+          2 / (dashpots_of_a_packing * beta * std::sqrt(stiffness * mass_eff) / mass)};   // infinite for e = 1
+}
+
+// What a dynamic body is to others: the radius of its points of contact, and the greatest mobility of one [1/kg]
+// (kernels/force_calculation_body_body.h), from the corners of the boxes around its geometries.
+struct Touching { double radius = 0, mobility = 0; };
+std::vector<Touching> touching_bodies(const World& w) {
+  const Bodies& b = std::get<Bodies>(w);
+  const Geometries& g = std::get<Geometries>(w);
+  std::vector<Touching> out(b.rows());
+  for (std::size_t k = 0; k < g.rows(); ++k) {
+    const Index body = g.body.data[k];
+    if (b.motion.data[body] != Motion::dynamic) continue;
+    const Bounds box = bounds(g.shape.data[k]);
+    const Vec3 i = b.inertia.data[body];
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 x = to_world(g.local.data[k], {corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                                                corner & 4 ? box.max.z : box.min.z});
+      const double turning = std::max({(x.y * x.y + x.z * x.z) / i.x, (x.x * x.x + x.z * x.z) / i.y, (x.x * x.x + x.y * x.y) / i.z});
+      out[body].mobility = std::max(out[body].mobility, 1 / b.mass.data[body] + turning);
+    }
+    out[body].radius = std::max(out[body].radius, Solid(g.shape.data[k]).radius);
+  }
+  return out;
+}
+
+// Of the contacts of bodies with each other: a corner of each against a wall; its overlap is that of the whole mass on one point.
+// A block between two others has eight points with springs and dashpots in both directions.
+Limits limits_of_bodies(const World& w, double young, double beta, double speed) {
+  constexpr double points = 8, dashpots = 16;
+  constexpr double never = std::numeric_limits<double>::infinity();
+  const std::vector<Touching> touching = touching_bodies(w);
+  Limits least{0, never, never, never};
+  for (std::size_t k = 0; k < touching.size(); ++k) {
+    const auto [radius, mobility] = touching[k];
+    if (!(radius > 0)) continue;
+    const double hertz = 4.0 / 3.0 * young * std::sqrt(radius);
+    const auto overlap_of = [&](double mass) { return std::pow(5 * mass * speed * speed / (4 * hertz), 0.4); };
+    const double overlap = overlap_of(std::get<Bodies>(w).mass.data[k]), stiffness = 2 * young * std::sqrt(radius * overlap);
+    least.overlap = std::max(least.overlap, overlap);
+    least.contact_time = std::min(least.contact_time, 2.9432 * overlap_of(1 / mobility) / speed);
+    least.springs = std::min(least.springs, 2 / std::sqrt(points * stiffness * mobility));
+    least.dashpots = std::min(least.dashpots, 2 / (dashpots * beta * std::sqrt(stiffness * mobility)));
+  }
+  return least;
+}
+
+double step_of(const Limits& l) { return std::min({l.contact_time / 40, l.springs / 10, 0.4 * l.dashpots}); }
+double limit_of(const Limits& l) { return std::min({l.contact_time / 10, l.springs / 2, 0.9 * l.dashpots}); }
+
 }  // namespace
 
 double expected_speed(const World& w, const Model& m) {
   const Particles& p = std::get<Particles>(w);
   const Vec3 g = m.gravity;
-  double fastest = 0, low = 0, high = 0;
+  double fastest = 0, low = std::numeric_limits<double>::infinity(), high = -low;   // where nothing falls: high < low
   const Vec3 up = g == Vec3{} ? Vec3{0, 0, 1} : -normalized(g);
   for (std::size_t k = 0; k < p.rows(); ++k) {
     fastest = std::max(fastest, norm(p.velocity.data[k]));
     const double height = dot(up, p.position.data[k]);
-    low = k == 0 ? height - p.radius.data[k] : std::min(low, height - p.radius.data[k]);
-    high = k == 0 ? height : std::max(high, height);
+    low = std::min(low, height - p.radius.data[k]);
+    high = std::max(high, height);
   }
   const Geometries& geometry = std::get<Geometries>(w);
   const Bodies& b = std::get<Bodies>(w);
+  for (std::size_t k = 0; k < b.rows(); ++k)
+    if (b.motion.data[k] == Motion::dynamic) high = std::max(high, dot(up, b.pose.data[k].position));
   double walls = 0;
-  for (std::size_t k = 0; k < geometry.rows(); ++k) {        // how low can a particle fall?
+  for (std::size_t k = 0; k < geometry.rows(); ++k) {        // how low can something fall?
     const Index body = geometry.body.data[k];
     const Pose pose = b.pose.data[body] * geometry.local.data[k];
     const double size = outer_radius(geometry.shape.data[k]);
@@ -63,14 +132,14 @@ double expected_speed(const World& w, const Model& m) {
       const double lever = norm(geometry.local.data[k].position) + (std::isfinite(size) ? size : high - low);
       walls = std::max(walls, norm(piece.velocity) + norm(piece.angular_velocity) * lever);
     }
-    walls = std::max(walls, norm(b.velocity.data[body]));
+    const double turning = std::isfinite(size) ? norm(b.angular_velocity.data[body]) * (norm(geometry.local.data[k].position) + size) : 0;
+    walls = std::max(walls, norm(b.velocity.data[body]) + turning);
   }
   const double fall = std::sqrt(2 * norm(g) * std::max(0.0, high - low));
   return std::max({2 * fastest, fastest + walls, std::hypot(fastest, fall) + walls, 1e-3});
 }
 
 TimeStepAdvice advise_time_step(const World& w, const Model& m, double speed) {
-  const Particles& p = std::get<Particles>(w);
   TimeStepAdvice a;
   a.speed = speed;
   double young = 0, beta = 0;
@@ -78,25 +147,26 @@ TimeStepAdvice advise_time_step(const World& w, const Model& m, double speed) {
     young = std::max(young, k.young_eff);
     beta = std::max(beta, std::sqrt(10.0 / 3.0) * damping_ratio_of(std::max(k.restitution, least_restitution)));
   }
-  // The lightest particle against another like it has the shortest contact: t_c ~ (m^2 / (R E*^2 v))^(1/5).
-  std::size_t smallest = 0;
-  for (std::size_t k = 1; k < p.rows(); ++k)
-    if (p.mass.data[k] < p.mass.data[smallest]) smallest = k;
-  const double radius = p.radius.data[smallest];
-  const double mass = std::min(p.mass.data[smallest], lightest_share_of_a_body(w, radius)), mass_eff = mass / 2;
-  const double hertz = 4.0 / 3.0 * young * std::sqrt(radius / 2);
-  a.overlap = std::pow(5 * mass_eff * speed * speed / (4 * hertz), 0.4);
-  a.contact_time = 2.9432 * a.overlap / speed;
-  const double stiffness = 2 * young * std::sqrt(radius / 2 * a.overlap);
-  a.stability_limit = 2 / std::sqrt(8 * stiffness / mass);
-  a.damping_limit = 2 / (dashpots_of_a_packing * beta * std::sqrt(stiffness * mass_eff) / mass);   // infinite for e = 1
-  const double by_contact = a.contact_time / 40, by_packing = a.stability_limit / 10, by_damping = 0.4 * a.damping_limit;
-  a.step = two_digits_down(std::min({by_contact, by_packing, by_damping}));
-  a.limit = std::min({a.contact_time / 10, a.stability_limit / 2, 0.9 * a.damping_limit});
+  std::vector<Limits> limits;
+  if (std::get<Particles>(w).rows() > 0) limits.push_back(limits_of_particles(w, young, beta, speed));
+  if (decide_effects(w, m).rigid_contacts) limits.push_back(limits_of_bodies(w, young, beta, speed));
+  if (limits.empty()) throw std::logic_error("nothing touches anything: there is no time step to advise");
+  const bool bodies = limits.size() == 2 ? step_of(limits[1]) < step_of(limits[0]) : std::get<Particles>(w).rows() == 0;
+  const Limits& l = bodies ? limits.back() : limits.front();
+
+  a.overlap = l.overlap;
+  a.contact_time = l.contact_time;
+  a.stability_limit = l.springs;
+  a.damping_limit = l.dashpots;
+  a.step = two_digits_down(step_of(l));
+  a.limit = limit_of(l);
+  for (const Limits& other : limits) a.limit = std::min(a.limit, limit_of(other));
+  const std::string of = bodies ? "bodies on both sides" : "a dense packing";
   a.reason = number("an impact at %.3g m/s overlaps %.3g mm and lasts %.3g ms; ", speed, a.overlap * 1e3, a.contact_time * 1e3);
-  if (a.step > 0.9 * by_contact) a.reason += "the step is 1/40 of that";
-  else if (a.step > 0.9 * by_packing) a.reason += "the step is a tenth of what the springs of a dense packing allow";
-  else a.reason += "the step is 0.4 of what the dashpots of a dense packing allow";
+  if (bodies) a.reason = "of a body against another, " + a.reason;
+  if (a.step > 0.9 * l.contact_time / 40) a.reason += "the step is 1/40 of that";
+  else if (a.step > 0.9 * l.springs / 10) a.reason += "the step is a tenth of what the springs of " + of + " allow";
+  else a.reason += "the step is 0.4 of what the dashpots of " + of + " allow";
   a.reason += number(" (springs: %.2g us, dashpots: %.2g us)", a.stability_limit * 1e6, a.damping_limit * 1e6);
   return a;
 }

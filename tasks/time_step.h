@@ -22,7 +22,8 @@ struct TimeStepAdvice {
 //   packing        h < 2 / omega_max, omega_max^2 ~ 8 k_tan / m, k_tan = 2 E* sqrt(R_eff g)     eq (2.6), derived for Hertz
 //   dashpots       h < 2 / lambda, lambda the largest eigenvalue of M^-1 C over the dashpots of a packing (kernels/integrate.h)
 // The step is the least of t_c / 40, a tenth of the springs' limit and 0.4 of the dashpots'; more than t_c / 10, half of the
-// springs' limit or 0.9 of the dashpots' is refused. A dynamic body counts as particles of its mass per contact.
+// springs' limit or 0.9 of the dashpots' is refused. A dynamic body counts as particles of its mass per contact; where
+// bodies touch each other their corners count as well, with the mass that gives way there: the least of both is the advice.
 TimeStepAdvice advise_time_step(const World&, const Model&, double speed);
 
 // The fastest impact to expect [m/s]: speeds at the start, prescribed motion of bodies, and a fall through the height of the scene.

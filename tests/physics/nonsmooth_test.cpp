@@ -266,5 +266,102 @@ TEST(Nonsmooth, SweepsOfARigidColumnGrowWithTheSquareOfItsHeight) {
   }
 }
 
+// --- dynamic rigid bodies ---------------------------------------------------------------------------------------------------
+
+constexpr double edge = 0.1, box_mass = 1;
+const Vec3 box_inertia = box_mass * edge * edge / 6 * Vec3{1, 1, 1};
+Shape cube() { return BoxShape{{edge / 2, edge / 2, edge / 2}}; }
+
+Vec3 place(const Simulation& s, Index body) { return std::get<Bodies>(s.world()).pose.data[body].position; }
+Vec3 speed(const Simulation& s, Index body) { return std::get<Bodies>(s.world()).velocity.data[body]; }
+
+TEST(NonsmoothBodies, StackOfBoxesStands) {
+  NonsmoothLab lab(0.18, 0.6, 0);
+  lab.under_gravity();
+  lab.floor();
+  for (int k = 0; k < 5; ++k) lab.body(cube(), {{0, 0, (k + 0.5) * edge}}, Motion::dynamic, box_mass, box_inertia);
+  lab.model.solver.tolerance = 1e-6;
+  auto s = lab.build();
+  run(*s, 2);
+  for (Index k = 1; k <= 5; ++k) {
+    EXPECT_NEAR(place(*s, k).z, (k - 0.5) * edge, 0.01 * edge);
+    EXPECT_LT(norm(Vec3{place(*s, k).x, place(*s, k).y, 0}), 1e-4 * edge);
+    EXPECT_LT(norm(speed(*s, k)), 1e-4);
+  }
+}
+
+TEST(NonsmoothBodies, BoxOnAnInclineSticksOrSlides) {
+  const double mu = 0.5;
+  for (const double slope : {0.45, 0.6}) {
+    const double theta = std::atan(slope);
+    NonsmoothLab lab(0, mu, 0);
+    lab.model.gravity = g * Vec3{std::sin(theta), 0, -std::cos(theta)};
+    lab.floor();
+    lab.body(cube(), {{0, 0, edge / 2}}, Motion::dynamic, box_mass, box_inertia);
+    lab.model.solver.tolerance = 1e-9;
+    auto s = lab.build();
+    run(*s, 1);
+    const double expected = slope > mu ? g * (std::sin(theta) - mu * std::cos(theta)) : 0;
+    EXPECT_NEAR(speed(*s, 1).x, expected, 0.005 * g * std::sin(theta)) << slope;
+    if (slope < mu) {
+      EXPECT_LT(std::abs(place(*s, 1).x), 1e-3 * edge);
+    }
+  }
+}
+
+// A box falls on a bed of spheres and comes to rest on it; whatever it does, forces are mutual.
+std::unique_ptr<Simulation> box_on_a_bed(int threads, double time) {
+  NonsmoothLab lab(0.18, 0.6, 0.1);
+  lab.under_gravity();
+  lab.floor();
+  for (const double side : {-1.0, 1.0}) {
+    lab.body(PlaneShape{}, {{side * 8 * R, 0, 0}, rotation_by({0, -side * M_PI / 2, 0})});
+    lab.body(PlaneShape{}, {{0, side * 8 * R, 0}, rotation_by({side * M_PI / 2, 0, 0})});
+  }
+  add_cloud(lab, 7, 2.05 * R, 5, 0.1);
+  for (Vec3& x : lab.particles().position.data) x.z += 8 * R;
+  lab.body(cube(), {{0, 0, 0.2}}, Motion::dynamic, 0.5, 0.5 * box_inertia);
+  lab.model.solver.tolerance = 1e-4;
+  lab.model.solver.iterations = 500;
+  auto s = lab.build(threads);
+  s->start();
+  while (s->time() < time - 1e-9) s->step();
+  return s;
+}
+
+TEST(NonsmoothBodies, BoxComesToRestOnABed) {
+  const auto s = box_on_a_bed(1, 2.5);
+  EXPECT_LT(norm(speed(*s, 5)), 2e-3);
+  EXPECT_GT(place(*s, 5).z, edge / 2 + 2 * R);
+  const Measures seen = measure(*s);
+  EXPECT_NEAR(seen.loads[5].force.z / (0.5 * g), 1, 0.02);
+  double weight = 0.5 * g;
+  for (const double mass : std::get<Particles>(s->world()).mass.data) weight += mass * g;
+  EXPECT_NEAR(-seen.loads[0].force.z / weight, 1, 0.01);
+}
+
+TEST(NonsmoothBodies, SameBitsForAnyThreads) {
+  const auto expected = box_on_a_bed(1, 0.3)->state_hash();
+  for (const int threads : {2, 4}) EXPECT_EQ(box_on_a_bed(threads, 0.3)->state_hash(), expected);
+}
+
+TEST(NonsmoothBodies, MomentumIsKept) {
+  NonsmoothLab lab(0.5, 0.4, 0);
+  lab.body(cube(), {{0, 0, 0}}, Motion::dynamic, 1, box_inertia);
+  lab.body(cube(), {{0.15, 0.02, 0.03}, rotation_by({0.3, 0.2, 0.5})}, Motion::dynamic, 2, 2.0 * box_inertia);
+  lab.bodies().velocity.data[0] = {2, 0, 0};
+  lab.sphere({-0.1, 0, 0}, {3, 0, 0}, {}, 5 * R, 0.2);
+  lab.model.solver.tolerance = 1e-9;
+  auto s = lab.build();
+  s->start();
+  const auto momentum = [&] {
+    return 1.0 * speed(*s, 0) + 2.0 * speed(*s, 1) + 0.2 * velocity(*s, 0);
+  };
+  const Vec3 before = momentum();
+  for (int k = 0; k < 200; ++k) s->step();
+  EXPECT_GT(speed(*s, 1).x, 0.1);
+  EXPECT_LT(norm(momentum() - before), 1e-12);
+}
+
 }  // namespace
 }  // namespace skred
