@@ -83,12 +83,12 @@ struct HubContact {
   Index inertia_a = no_index, inertia_b = no_index;  // rows of Bodies; no_index: a particle
   Index contact = no_index;                          // row of BodyContacts, or of RigidContacts
   bool of_bodies = false, impact = false;
-  Vec3 normal, tangent, across;                      // unit, from b to a; and two at right angles to it
+  Vec3 normal;                                       // unit, from b to a
   Vec3 arm_a, arm_b;                                 // [m] from the centres to the contact point
   double overlap = 0, allowance = 0, velocity_factor = 0;              // as in GroupSource
   double bias = 0, compliance = 0, normal_step = 0, free_step = 0;     // as in ContactGroup
-  double step_tt = 0, step_ta = 0, step_aa = 0;      // [kg] inverse of the 2 x 2 matrix w_t
-  double rolling_step = 0, friction = 0, rolling_arm = 0;
+  double tangential_step = 0, rolling_step = 0;      // 1 / the greatest of what the 2 x 2 matrices w_t and w_r can give
+  double friction = 0, rolling_arm = 0;
   double normal_impulse = 0;                         // [N s]
   Vec3 friction_impulse, rolling_impulse, impact_impulse;
 };

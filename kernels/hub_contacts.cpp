@@ -44,11 +44,14 @@ Vec3 some_tangent(const Vec3& n) {
   return normalized(cross(n, e));
 }
 
+// The greater eigenvalue of a symmetric 2 x 2 matrix. A number and not the matrix, because the friction that a step along its inverse
+// ends with, cut to the disc, would not be opposed to the sliding.
+double greatest(double tt, double ta, double aa) { return 0.5 * (tt + aa) + std::hypot(0.5 * (tt - aa), ta); }
+
 void finish(HubContact& c, std::span<SolverBody> bodies, std::span<const InverseInertia> inertia, double radius_eff, const RowCoefficients& k,
             const RowOptions& o) {
   const Sides s = sides_of(c, bodies, inertia);
-  c.tangent = some_tangent(c.normal);
-  c.across = cross(c.normal, c.tangent);
+  const Vec3 tangent = some_tangent(c.normal), across = cross(c.normal, tangent);
   const auto w = [&](const Vec3& x, const Vec3& y) { return dot(x, s.a.gives_way(y) + s.b.gives_way(y)); };
   const double w_n = w(c.normal, c.normal), velocity = dot(s.a.velocity() - s.b.velocity(), c.normal);
   const NormalRow row = normal_row(c.overlap, radius_eff, 1 / w_n, k, o);
@@ -59,10 +62,9 @@ void finish(HubContact& c, std::span<SolverBody> bodies, std::span<const Inverse
   c.compliance = row.compliance;
   c.normal_step = 1 / (w_n + row.compliance);
   c.free_step = 1 / w_n;
-  const double tt = w(c.tangent, c.tangent), ta = w(c.tangent, c.across), aa = w(c.across, c.across), det = tt * aa - ta * ta;
-  c.step_tt = aa / det, c.step_ta = -ta / det, c.step_aa = tt / det;
-  const auto turns = [&](const Vec3& x) { return dot(x, s.a.turned_by(x) + s.b.turned_by(x)); };
-  c.rolling_step = 1 / (turns(c.tangent) + turns(c.across));   // the trace bounds both: slower than the matrix, never too far
+  c.tangential_step = 1 / greatest(w(tangent, tangent), w(tangent, across), w(across, across));
+  const auto turns = [&](const Vec3& x, const Vec3& y) { return dot(x, s.a.turned_by(y) + s.b.turned_by(y)); };
+  c.rolling_step = 1 / greatest(turns(tangent, tangent), turns(tangent, across), turns(across, across));
   c.friction = k.friction;
 }
 
@@ -167,9 +169,8 @@ void sweep_hubs(std::span<HubContact> hubs, std::span<SolverBody> bodies, std::s
     change.total += c.normal_impulse;
     if (kind.friction) {
       u = s.a.velocity() - s.b.velocity();
-      const double t = dot(u, c.tangent), a = dot(u, c.across);
       const Vec3 was = c.friction_impulse;
-      c.friction_impulse -= (c.step_tt * t + c.step_ta * a) * c.tangent + (c.step_ta * t + c.step_aa * a) * c.across;
+      c.friction_impulse -= c.tangential_step * in_tangent_plane(u, c.normal);
       c.friction_impulse *= reduction(c.friction_impulse, c.friction * c.normal_impulse);
       exchange(c.friction_impulse - was);
       change.change += norm(c.friction_impulse - was);

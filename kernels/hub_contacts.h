@@ -1,7 +1,7 @@
 // kernels/hub_contacts.h - contacts of dynamic rigid bodies, with particles and with each other (nonsmooth DEM).
 //
 // The rows are those of engine/contact_rows.h, but the effective mass across the normal is a 2 x 2 matrix and not a number
-// [Mirtich 1996; as every rigid-body engine has it], and the normal row moves the friction row.
+// [Mirtich 1996], and the normal row moves the friction row.
 #pragma once
 #include <span>
 #include "kernels/constraint_setup.h"
