@@ -100,6 +100,7 @@ template <class B> void rest(const B& best, const Reference& face, std::vector<V
   for (std::size_t k = before; k < out.size(); ++k) deepest = std::max(deepest, out[k].overlap);
   if (out.size() > before && (deepest <= 0 || deepest <= too_deep * -best.any.separation)) return;
   out.resize(before);
+  if (best.any.separation >= 0) return;                      // beside the face, and near at most
   touch_at_point(best, dot(face.normal, best.flat.normal) < 0 ? -1 : 1, out);   // the face may be one of a: its normal points to b
 }
 

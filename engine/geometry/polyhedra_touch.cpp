@@ -84,7 +84,7 @@ void touch_polyhedra(const Polyhedron& a, const Polyhedron& b, double margin, st
   const Polyhedron::Face& face = *flat.face;
   rest_on({below.vertices[face.corners[0]], face.normal, below.corners_of(face)}, above.corners_of(above.face_towards(-face.normal)), margin, out);
   if (out.size() == before && edges.of_a) return touch_at_edges();
-  if (out.size() == before) {                                // a corner beside the face: deep, or between two axes
+  if (out.size() == before && flat.separation < 0) {         // a corner beside the face: deep, or between two axes
     out.push_back({above.support(-face.normal) - (0.5 * flat.separation) * face.normal, face.normal, -flat.separation, 1});
   }
   for (std::size_t k = before; k < out.size() && !on_b; ++k) out[k].normal = -out[k].normal;   // from b to a
