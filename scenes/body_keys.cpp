@@ -136,7 +136,7 @@ const Section<GeometryKeys>& geometry_keys() {
                     if (!std::holds_alternative<MeshShape>(g.spec.shape)) return {};
                     return MeshKeys{g.spec.mesh_file, g.spec.mesh_scale};
                   },
-                  load_mesh, "A triangle mesh; both sides are walls.").alternative(),
+                  load_mesh, "A triangle mesh; both sides are walls. Dynamic bodies other than spheres touch it only if it is convex and closed.").alternative(),
       property<G>("ring", Map<RingKeys>{ring_keys}, [](const G& g) { return g.ring; },
                   [](G& g, const RingKeys& ring) { g.ring = ring; },
                   "Copies of the geometry at equal angles about an axis.").by_default("one, as it stands"),

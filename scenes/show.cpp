@@ -100,7 +100,9 @@ std::string models_text() {
       "  none     no rolling resistance\n"
       "\n"
       "g overlap, R_eff and m_eff reduced radius and mass (a wall: R and m of the particle), E* and G* effective moduli,\n"
-      "u_t velocity of the contact point, w_t relative spin, both in the tangent plane. The contact lies at R - g/2 from a centre.\n";
+      "u_t velocity of the contact point, w_t relative spin, both in the tangent plane. The contact lies at R - g/2 from a centre.\n"
+      "Two rigid bodies: the normal and tangential law at every corner of the patch where they touch; R_eff from spheres of equal\n"
+      "volume (Podlozhnyuk et al. 2017; the own radius of a sphere on something flat), 1/m_eff = sum of 1/m + (r x n) I^-1 (r x n).\n";
 }
 
 }  // namespace skred

@@ -84,7 +84,7 @@ std::vector<Touching> touching_bodies(const World& w) {
 // Of the contacts of bodies with each other: a corner of each against a wall; its overlap is that of the whole mass on one point.
 // A block between two others has eight points with springs and dashpots in both directions.
 Limits limits_of_bodies(const World& w, double young, double beta, double speed) {
-  constexpr double points = 8, dashpots = 16;
+  constexpr double points = 8, dashpots = 8;
   constexpr double never = std::numeric_limits<double>::infinity();
   const std::vector<Touching> touching = touching_bodies(w);
   Limits least{0, never, never, never};

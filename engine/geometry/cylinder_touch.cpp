@@ -21,37 +21,36 @@ struct Axis {
   double separation = -std::numeric_limits<double>::infinity();
 };
 
-// The best axis so far. Faces and ends are preferred where a point gives nearly the same: the choice shall not flicker.
+// The best axes so far.
 template <class A, class B> struct Best {
   const A& a;
   const B& b;
-  Axis flat{}, point{};
+  Axis flat{}, point{}, any{};   // carried by a face, end or side; by a point; by whatever
 
   void offer(Axis axis) {
     axis.separation = dot(axis.normal, a.support(-axis.normal) - b.support(axis.normal));
-    Axis& best = axis.carrier == Carrier::point ? point : flat;
-    if (axis.separation > best.separation) best = axis;
+    if (axis.separation > flat.separation) flat = axis;
+    if (axis.separation > any.separation) any = axis;
   }
-  // A feature of b (or of a) that is a curve through x inside the other: `out` points out of that other.
+  // x on an edge or rim of b (or of a) inside the other, from which `out` points out of that other. It is the place of contact
+  // only if nothing of its shape lies deeper along this axis.
   void offer_point(const Vec3& x, const Vec3& out, bool of_b) {
     if (!(norm(out) > 0)) return;
-    const Vec3 m = normalized(out);
-    Axis axis{of_b ? -m : m};
-    axis.separation = dot(axis.normal, a.support(-axis.normal) - b.support(axis.normal));
-    axis.point = x - (0.5 * axis.separation) * m;            // out of the other by half the overlap
-    if (axis.separation > point.separation) point = axis;
+    constexpr double part_of_overlap = 0.1;
+    const Vec3 m = normalized(out), n = of_b ? -m : m;
+    const double s = dot(n, a.support(-n) - b.support(n)), deeper = of_b ? dot(n, b.support(n) - x) : dot(-n, a.support(-n) - x);
+    const Axis axis{n, Carrier::point, x - (0.5 * s) * m, nullptr, s};   // halfway: out of the other by half the overlap
+    if (s > any.separation) any = axis;
+    if (s > point.separation && deeper <= part_of_overlap * std::abs(s)) point = axis;
   }
-  const Axis& chosen() const {
-    constexpr double clearly = 0.01;
-    return point.separation > flat.separation + clearly * std::abs(flat.separation) ? point : flat;
-  }
+  const Axis& chosen() const { return point_beats_face(point.separation, point.normal, flat.separation, flat.normal) ? point : flat; }
 };
 
-// Where a function of [low, high] with one minimum is least.
+// Where a function of [low, high] with one minimum is least, to 2e-7 of the range: depths at minima do not feel it.
 template <class F> double least(double low, double high, F f) {
   constexpr double golden = 0.6180339887498949;
   double x = high - golden * (high - low), y = low + golden * (high - low), fx = f(x), fy = f(y);
-  for (int k = 0; k < 60; ++k) {
+  for (int k = 0; k < 32; ++k) {
     if (fx <= fy) { high = y; y = x; fy = fx; fx = f(x = high - golden * (high - low)); }
     else { low = x; x = y; fx = fy; fy = f(y = low + golden * (high - low)); }
   }
@@ -83,14 +82,26 @@ void flip(std::vector<Touch>& out, std::size_t from) {
   for (std::size_t k = from; k < out.size(); ++k) out[k].normal = -out[k].normal;
 }
 
-// Where the chosen axis is carried by a face: what the other shape rests on it with. If nothing is left inside the face's
-// outline, the farthest place stands for it.
-template <class Above> void rest(const Reference& face, const Above& above, std::vector<Vec3> polygon, double separation, double margin,
-                                 std::vector<Touch>& out) {
+// The best point or, where that is clearly deeper than the axis of least overlap, what that axis says.
+template <class B> void touch_at_point(const B& best, double facing, std::vector<Touch>& out) {
+  constexpr double clearly = 1.2;
+  const Axis& axis = -best.point.separation <= clearly * -best.any.separation ? best.point : best.any;
+  const Vec3 place = axis.carrier == Carrier::point ? axis.point : best.a.support(-axis.normal) - (0.5 * axis.separation) * axis.normal;
+  out.push_back({place, facing * axis.normal, -axis.separation, 1});
+}
+
+// Where the chosen axis is carried by a face: what the other shape rests on it with. If nothing of it lies inside the face's outline,
+// or all too deep, a point stands for it.
+template <class B> void rest(const B& best, const Reference& face, std::vector<Vec3> polygon, double margin, std::vector<Touch>& out) {
+  constexpr double too_deep = 1.5;                           // times the least overlap that is known
   const std::size_t before = out.size();
   rest_on(face, std::move(polygon), margin, out);
-  if (out.size() == before)
-    out.push_back({above.support(-face.normal) - (0.5 * separation) * face.normal, face.normal, -separation, 1});
+  double deepest = -std::numeric_limits<double>::infinity();
+  for (std::size_t k = before; k < out.size(); ++k) deepest = std::max(deepest, out[k].overlap);
+  if (out.size() > before && (deepest <= 0 || deepest <= too_deep * -best.any.separation)) return;
+  out.resize(before);
+  if (best.any.separation >= 0) return;                      // beside the face, and near at most
+  touch_at_point(best, dot(face.normal, best.flat.normal) < 0 ? -1 : 1, out);   // the face may be one of a: its normal points to b
 }
 
 Reference end_reference(const Roll& c, const Vec3& outwards) {
@@ -103,26 +114,26 @@ Reference end_reference(const Roll& c, const Vec3& outwards) {
 void touch_roll_polyhedron(const Roll& a, const Polyhedron& b, double margin, std::vector<Touch>& out) {
   Best<Roll, Polyhedron> best{a, b};
   for (const auto& f : b.faces) best.offer({f.normal, Carrier::face_of_b, {}, &f});
-  if (best.flat.separation >= margin) return;
   for (const Vec3& n : {a.axis, -a.axis}) best.offer({n, Carrier::end_of_a});
+  if (best.any.separation >= margin) return;
   for (const auto& e : b.edges) {
     const Vec3 from = b.vertices[e.from], along = b.vertices[e.to] - from;
     const Vec3 x = from + least(0, 1, [&](double s) { return a.distance(from + s * along); }) * along;
     best.offer_point(x, a.normal_at(x), true);
     best.offer_point(x, away_from(a.centre, x, cross(along, rim_direction(a, x))), true);
   }
+  if (best.any.separation >= margin) return;
   const Axis& axis = best.chosen();
-  if (axis.separation >= margin) return;
   const std::size_t before = out.size();
   switch (axis.carrier) {
     case Carrier::face_of_b:
-      rest({b.vertices[axis.face->corners[0]], axis.normal, b.corners_of(*axis.face)}, a, a.face_towards(-axis.normal), axis.separation, margin, out);
+      rest(best, {b.vertices[axis.face->corners[0]], axis.normal, b.corners_of(*axis.face)}, a.face_towards(-axis.normal), margin, out);
       break;
     case Carrier::end_of_a:
-      rest(end_reference(a, -axis.normal), b, b.corners_of(b.face_towards(axis.normal)), axis.separation, margin, out);
+      rest(best, end_reference(a, -axis.normal), b.corners_of(b.face_towards(axis.normal)), margin, out);
       flip(out, before);
       break;
-    default: out.push_back({axis.point, axis.normal, -axis.separation, 1});
+    default: touch_at_point(best, 1, out);
   }
 }
 
@@ -138,27 +149,27 @@ void touch_rolls(const Roll& a, const Roll& b, double margin, std::vector<Touch>
     const Vec3 along = cross(n, a.axis);                     // the point of b's axis that is nearest to a's
     best.offer_point(b.centre + (dot(apart, along) / dot(b.axis, along)) * b.axis + b.radius * n, -n, true);
   }
-  if (std::max(best.flat.separation, best.point.separation) >= margin) return;
+  if (best.any.separation >= margin) return;
   rims_of(a, b, false, best);
   rims_of(b, a, true, best);
+  if (best.any.separation >= margin) return;
   const Axis& axis = best.chosen();
-  if (axis.separation >= margin) return;
   const std::size_t before = out.size();
   switch (axis.carrier) {
     case Carrier::end_of_b:
-      rest(end_reference(b, axis.normal), a, a.face_towards(-axis.normal), axis.separation, margin, out);
+      rest(best, end_reference(b, axis.normal), a.face_towards(-axis.normal), margin, out);
       break;
     case Carrier::end_of_a:
-      rest(end_reference(a, -axis.normal), b, b.face_towards(axis.normal), axis.separation, margin, out);
+      rest(best, end_reference(a, -axis.normal), b.face_towards(axis.normal), margin, out);
       flip(out, before);
       break;
     case Carrier::sides: {
       std::vector<Vec3> line = a.face_towards(-axis.normal);
       for (const double end : {-1.0, 1.0}) line = clipped(line, b.centre + (end * b.half_length) * b.axis, end * b.axis);
-      rest({b.support(axis.normal), axis.normal, {}}, a, std::move(line), axis.separation, margin, out);
+      rest(best, {b.support(axis.normal), axis.normal, {}}, std::move(line), margin, out);
       break;
     }
-    default: out.push_back({axis.point, axis.normal, -axis.separation, 1});
+    default: touch_at_point(best, 1, out);
   }
 }
 

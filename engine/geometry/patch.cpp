@@ -43,6 +43,11 @@ void rest_on(const Reference& face, std::vector<Vec3> polygon, double margin, st
     if (t.weight > 1e-9) out.push_back(t);                   // corners that coincide: one has it all
 }
 
+bool point_beats_face(double point_separation, const Vec3& point_normal, double face_separation, const Vec3& face_normal) {
+  constexpr double clearly_less = 0.05, cosine = 0.99;       // 8 degrees
+  return point_separation > face_separation + clearly_less * std::abs(face_separation) && std::abs(dot(point_normal, face_normal)) < cosine;
+}
+
 Roll::Roll(const Pose& pose, double r, double length)
     : centre(pose.position), axis(rotate(pose.orientation, {0, 0, 1})), across(rotate(pose.orientation, {1, 0, 0})),
       radius(r), half_length(0.5 * length) {}

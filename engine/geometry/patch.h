@@ -18,6 +18,11 @@ struct Reference { Vec3 point, normal; std::vector<Vec3> corners; };
 // Normals point from the reference to the polygon.
 void rest_on(const Reference&, std::vector<Vec3> polygon, double margin, std::vector<Touch>& out);
 
+// Whether a point where two edges cross is the place of contact, and not the face whose axis is the best of all faces': its overlap
+// is clearly less and its normal clearly another. Else the choice would flicker where faces are nearly parallel - and the patch
+// has the crossing among its corners.
+bool point_beats_face(double point_separation, const Vec3& point_normal, double face_separation, const Vec3& face_normal);
+
 // A cylinder in the world.
 struct Roll {
   Vec3 centre, axis, across;     // unit; `across` is a direction of the body that is perpendicular to the axis

