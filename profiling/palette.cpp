@@ -27,6 +27,7 @@ constexpr Entry known[] = {
     {"wrap_positions", {"#2f6b4f", "startup"}},
     {"constraint_setup", {"#6a1b57", "detailed_memory_dump"}},
     {"impact_solve", {"#a8499b", "terrible"}},
+    {"contact_start", {"#8f3f86", "heap_dump_child_node_arrow"}},
     {"contact_solve", {"#cc79a7", "heap_dump_stack_frame"}},
     {"impulse_application", {"#e7b7d3", "heap_dump_object"}},
     {"sample", {"#5f6368", "grey"}},
