@@ -78,7 +78,7 @@ std::string kernel_table(const SceneResult& r, const std::vector<Summary>& by_th
 std::string solver_table(const SceneResult& r) {
   const SolverSummary first = summarize_solver(r, r.threads.front(), false);
   const auto percent = [](double share) { return fmt::format("{:.0f} %", 100 * share); };
-  std::string out = fmt::format("  solver: {} contacts, {} impact sweeps a step of {} ms\n  a step is detection {}, setup {}, impact {}, solve {}, rest {}\n",
+  std::string out = fmt::format("  nonsmooth DEM: {} contacts, {} impact sweeps, a step of {} ms\n  a step is detection {}, setup {}, impact {}, solve {}, rest {}\n",
                                 count(std::size_t(std::llround(first.contacts))), digits(first.impact_sweeps),
                                 digits(1e3 * r.processes.front().time_step), percent(first.detection), percent(first.setup),
                                 percent(first.impact), percent(first.solve), percent(first.rest));
@@ -141,7 +141,7 @@ std::string text_of(const SceneResult& r, bool all_kernels) {
   for (const int t : r.threads) by_threads.push_back(summarize(r, t, r.executions.front()));
   const Summary& first = by_threads.front();
 
-  std::string out = fmt::format("\n{}: {} particles, {}{}\n", r.name, count(n), r.what, r.nonsmooth() ? "; nonsmooth DEM" : "");
+  std::string out = fmt::format("\n{}: {} particles, {}\n", r.name, count(n), r.what);
   const auto each = [&](double sum) { return digits(sum / double(n)); };
   const auto every = [&](const char* what, std::int64_t times) {
     return times ? fmt::format("a {} every {} steps", what, digits(double(first.steps) / double(times)))
