@@ -286,7 +286,10 @@ void ConstraintSetup<Space>::operator()(Parallel parallel, Read<&Particles::id> 
       }
       grouping.close();
       for (ContactGroup& g : groups)
-        for (std::size_t l = std::size_t(g.count); l < ContactGroup::size; ++l) g.a[l] = g.a[0], g.b[l] = g.b[0];
+        for (std::size_t l = std::size_t(g.count); l < ContactGroup::size; ++l) {
+          const std::size_t first_of_pack = l & (l - 1);     // 4, 6 and 7 of 8: 0, 4, 6
+          g.a[l] = g.a[first_of_pack], g.b[l] = g.b[first_of_pack];
+        }
       if (options.impacts) {
         BlockNeighbours& beside = blocks->neighbours.data[k];
         beside.fill(no_index);
