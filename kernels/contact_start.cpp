@@ -1,6 +1,7 @@
 #include "kernels/contact_start.h"
 #include <algorithm>
 #include "kernels/contact_blocks.h"
+#include "kernels/contact_fetch.h"
 #include "kernels/contact_law.h"
 
 namespace skred {
@@ -14,8 +15,12 @@ void ContactStart<rolling>::operator()(Parallel parallel, Read<&Particles::id> i
                                        Read<&Solver::residual> residual) const {
   const double h = time_step;
   const auto for_each_contact = [&](std::size_t b, const auto& visit) {
-    for (std::size_t k = 0; k < groups[b].size(); ++k)
-      for (std::size_t l = 0; l < std::size_t(groups[b][k].count); ++l) visit(groups[b][k], sources[b][k], l);
+    const auto& of_block = groups[b];
+    for (std::size_t k = 0; k < of_block.size(); ++k) {
+      if (k + 3 < of_block.size()) fetch(of_block[k + 3]), fetch(sources[b][k + 3]);
+      if (k + 2 < of_block.size()) fetch_bodies(of_block[k + 2], bodies.data());
+      for (std::size_t l = 0; l < std::size_t(of_block[k].count); ++l) visit(groups[b][k], sources[b][k], l);
+    }
   };
 
   // The right-hand sides, from the velocities before gravity.
