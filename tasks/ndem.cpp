@@ -9,6 +9,7 @@
 #include "kernels/initial_forces.h"
 #include "kernels/move_bodies.h"
 #include "kernels/restitution.h"
+#include "kernels/swept_test.h"
 #include "tasks/steps.h"
 #include "tasks/time_step.h"
 
@@ -68,6 +69,7 @@ void add_ndem(Task& task, const World& world, const Model& model, bool initial) 
   if (model.periodic) add(*model.periodic);
   else add(OpenSpace{});
   if (initial) return;
+  if (e.bodies) task.add(SweptTest{model.time_step});
   add_integrate(task, model, e, model.time_step);
   if (e.moving_bodies) task.add(MoveBodies{model.pieces, model.bodies_at_start, model.time_step, model.time_step});
 }
