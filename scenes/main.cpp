@@ -2,6 +2,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include "engine/io/io_error.h"
@@ -146,6 +149,9 @@ int guarded(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+#ifdef __GLIBC__
+  mallopt(M_MMAP_THRESHOLD, 4'000'000);      // large columns come back to the system when freed, instead of leaving holes
+#endif
   const int code = guarded(argc, argv);
   if (code != exit_io) return code;
   std::fflush(nullptr);
