@@ -105,7 +105,7 @@ template <class R, SweepKind kind>
 
 template <SweepKind kind> template <VectorPath path>
 void ContactSweep<kind>::run(ContactGroup* groups, std::size_t count, SolverBody* bodies, double separation_speed, SweepChange& out) {
-  sweep_groups<typename NumberOf<path>::type, kind>(groups, count, bodies, separation_speed, out);
+  sweep_groups<NumberOf<path>, kind>(groups, count, bodies, separation_speed, out);
 }
 
 }  // namespace skred

@@ -101,7 +101,7 @@ template <class R, class Pairs> [[gnu::flatten]] void calculate_forces(const Pai
 
 template <class Law, class Kinds, class Space> template <VectorPath path>
 void PairForces<Law, Kinds, Space>::run(const PairForces& pairs, const PairColumns& c, std::size_t first, std::size_t last) {
-  calculate_forces<typename NumberOf<path>::type>(pairs, c, first, last);
+  calculate_forces<NumberOf<path>>(pairs, c, first, last);
 }
 
 }  // namespace skred
