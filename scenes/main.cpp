@@ -56,7 +56,7 @@ struct SceneOptions {
 };
 
 int run_program(int argc, char** argv) {
-  CLI::App app{"Skred " SKRED_VERSION ": granular matter with smooth DEM.", "skred"};
+  CLI::App app{"Skred " SKRED_VERSION ": granular matter with smooth and nonsmooth DEM.", "skred"};
   app.require_subcommand(1);
   app.set_version_flag("--version", "skred " SKRED_VERSION);
   app.set_help_all_flag("--help-all", "help of every verb");

@@ -211,10 +211,16 @@ void write_pictures(const Run& r) {
     c.processor = processor_name();
     c.particles = std::int64_t(std::get<Particles>(r.sim.world()).rows());
     c.contacts = std::int64_t(r.last.contacts + r.last.body_contacts);
-    c.parts = {{"collision detection and hashing", {"check_motion", "reorder", "broadphase", "contact_hashing", "broadphase_body",
-                                                    "contact_hashing_body", "contact_geometry_body"}},
-               {"force calculation and application", {"force_calculation_particle_particle", "force_calculation_particle_body",
-                                                      "force_application_particle", "force_application_body"}}};
+    c.parts = {{"collision detection and hashing", {"check_motion", "reorder", "broadphase", "contact_listing", "contact_hashing",
+                                                    "broadphase_body", "contact_hashing_body", "contact_geometry_body",
+                                                    "broadphase_body_body", "contact_geometry_body_body"}}};
+    if (r.scene.method == Method::ndem)
+      c.parts.push_back({"constraints and their solution", {"constraint_setup", "constraint_setup_body", "impact_solve", "contact_start",
+                                                            "contact_solve", "impulse_application", "impulse_application_body"}});
+    else
+      c.parts.push_back({"force calculation and application", {"force_calculation_particle_particle", "force_calculation_particle_body",
+                                                               "force_calculation_body_body", "force_application_particle",
+                                                               "force_application_body"}});
     write_timeline_svg(r.options.timeline, t, c);
     r.log.info("timeline: {}", r.options.timeline);
   }
