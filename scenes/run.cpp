@@ -118,6 +118,8 @@ void check_trouble(Run& r) {
   switch (s.trouble.data[0]) {
     case Trouble::not_finite: throw NumericalFailure(where + ": not a number; " + likely_cause(r));
     case Trouble::too_fast:
+      if (r.scene.method == Method::ndem)
+        throw NumericalFailure(where + ": it goes so far in one step that it could meet two images of another particle; " + likely_cause(r));
       throw NumericalFailure(where + fmt::format(": it moves more than half its radius ({:g} m) in one step; ", p.radius.data[row]) + likely_cause(r));
     default:
       throw NumericalFailure(where + ": it left the bounds of the scene; likely causes: a gap between walls, a wall that ends too low, "
