@@ -11,7 +11,7 @@ namespace skred {
 // The branch-free choice that laws use instead of `if`: of numbers, and lane by lane of packs.
 constexpr double select(bool condition, double yes, double no) { return condition ? yes : no; }
 template <class Mask, class Pack> requires(!std::is_same_v<Mask, bool>)
-Pack select(const Mask& condition, const Pack& yes, const Pack& no) {
+[[gnu::always_inline]] inline Pack select(const Mask& condition, const Pack& yes, const Pack& no) {
   Pack r = no;
   where(condition, r) = yes;                                 // std::experimental::where
   return r;

@@ -44,7 +44,7 @@ template <class R> struct ContactState {
 template <class R> Vec3T<R> in_tangent_plane(const Vec3T<R>& v, const Vec3T<R>& n) { return v - dot(v, n) * n; }
 
 // What v must be scaled by to be no longer than `limit`: 1, or limit / |v|.
-template <class R> R reduction(const Vec3T<R>& v, R limit) {
+template <class R> [[gnu::always_inline]] inline R reduction(const Vec3T<R>& v, R limit) {
   const R length2 = dot(v, v);
   const auto longer = length2 > limit * limit;
   if (none_of(longer)) return R(1);                          // most contacts stick most of the time: no root, no division

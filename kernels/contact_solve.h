@@ -2,8 +2,7 @@
 //
 // impact_solve   contacts that close faster than v_imp are turned round at once, u_n+ = -e u_n- [Newton's law; Moreau 1988], while
 //                no other contact may close.
-// contact_solve  gravity, and the rows of engine/contact_rows.h. It starts from the impulses of the last step, or half of them if
-//                those were far from the solution: too much of a wrong answer makes a tall stack unstable.
+// contact_solve  the rows of engine/contact_rows.h, from where kernels/contact_start.h begins.
 #pragma once
 #include "engine/access.h"
 #include "kernels/hub_contacts.h"
@@ -29,24 +28,15 @@ struct ImpactSolve {
                   Write<&Solver::impact_residual> residual) const;
 };
 
-template <bool rolling> struct ContactSolve {
+struct ContactSolve {
   static constexpr const char* name = "contact_solve";
 
   SweepOptions sweeps;
-  double time_step;              // h [s]
-  Vec3 gravity;                  // [m/s^2]
-  bool warm_start;
 
-  void operator()(Parallel parallel, Read<&Particles::id> id, Read<&ContactBlocks::first_of_colour> first_of_colour,
-                  Read<&ContactBlocks::contacts> contacts_of_block, Update<&ContactBlocks::groups> groups, Read<&ContactBlocks::sources> sources,
-                  Update<&ContactBlocks::change> change, Read<&Contacts::spring> impulse, Read<&BodyContacts::spring> body_impulse,
-                  If<rolling, Read<&Contacts::rolling>> rolling_impulse, If<rolling, Read<&BodyContacts::rolling>> body_rolling_impulse,
-                  Read<&RigidContacts::spring> rigid_impulse, Update<&HubContacts::contact> hubs, Read<&SolverBodies::inverse_inertia> inertia,
-                  Update<&SolverBodies::state> bodies, Write<&Solver::contacts> contacts, Write<&Solver::sweeps> sweeps_done,
-                  Update<&Solver::residual> residual, Update<&Solver::unsolved> unsolved) const;
+  void operator()(Parallel parallel, Read<&ContactBlocks::first_of_colour> first_of_colour, Read<&ContactBlocks::contacts> contacts_of_block,
+                  Update<&ContactBlocks::groups> groups, Update<&ContactBlocks::change> change, Update<&HubContacts::contact> hubs,
+                  Read<&SolverBodies::inverse_inertia> inertia, Update<&SolverBodies::state> bodies, Write<&Solver::contacts> contacts,
+                  Write<&Solver::sweeps> sweeps_done, Write<&Solver::residual> residual, Update<&Solver::unsolved> unsolved) const;
 };
-
-extern template struct ContactSolve<true>;
-extern template struct ContactSolve<false>;
 
 }  // namespace skred

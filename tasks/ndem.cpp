@@ -5,6 +5,7 @@
 #include <algorithm>
 #include "kernels/constraint_setup.h"
 #include "kernels/contact_solve.h"
+#include "kernels/contact_start.h"
 #include "kernels/impulse_application.h"
 #include "kernels/initial_forces.h"
 #include "kernels/move_bodies.h"
@@ -49,8 +50,8 @@ template <bool rolling, class Space> void add_solver(Task& task, const World& w,
     task.add(ImpactSolve{e.friction ? options<true, true, false, false>(m, m.solver.impact_iterations)
                                     : options<true, false, false, false>(m, m.solver.impact_iterations)});
   const bool limited = m.solver.separation_speed.has_value();
-  task.add(ContactSolve<rolling>{limited ? contact_sweeps<rolling, true>(m, e) : contact_sweeps<rolling, false>(m, e), h, m.gravity,
-                                 m.solver.warm_start});
+  task.add(ContactStart<rolling>{h, m.gravity, m.solver.warm_start});
+  task.add(ContactSolve{limited ? contact_sweeps<rolling, true>(m, e) : contact_sweeps<rolling, false>(m, e)});
   task.add(ImpulseApplication<rolling>{h});
   if (e.dynamic_bodies) task.add(ImpulseApplicationBody{h});
 }

@@ -41,9 +41,9 @@ std::function<Scene()> reader_of(const BenchOptions& o, const std::string& name)
 }
 
 // Steps that take about a second with the fewest threads.
-std::int64_t steps_of_window(const BenchOptions& o, double step_seconds) {
+std::int64_t steps_of_window(const BenchOptions& o, double step_seconds, bool nonsmooth) {
   constexpr double duration = 1;             // [s]
-  constexpr std::int64_t least = 20;
+  const std::int64_t least = nonsmooth ? 5 : 20;
   return o.steps ? o.steps : std::max(least, std::int64_t(std::lround(duration / std::max(step_seconds, 1e-9))));
 }
 
@@ -72,40 +72,56 @@ SceneResult time_scene(const BenchOptions& o, const std::string& name, const Int
   const BenchScene* known = find_bench_scene(name);
   SceneResult r{.name = name, .what = known ? known->what : "scene file, from its start", .threads = o.threads};
   for (const Execution e : o.executions) r.executions.push_back(execution_name(e));
-  r.warm_up = o.warm_up;
   r.load_before = load_average();
 
   // A process per thread count, so that peak memory is that of the scene. They take turns: the machine's speed drifts, and only
   // windows side by side can be compared. All do the same steps, so their states stay the same.
-  std::vector<std::unique_ptr<Worker>> workers;
-  for (const int threads : o.threads) {
-    const WorkerJob job{name, reader_of(o, name), threads, o.vector_path, o.executions, o.states / fmt::format("frames-{}", getpid()),
-                        std::chrono::steady_clock::now()};
-    workers.push_back(std::make_unique<Worker>(job, interrupt));
-    workers.back()->start();
+  using Team = std::vector<std::unique_ptr<Worker>>;
+  const auto start = [&](bool cold) {
+    Team team;
+    for (const int threads : o.threads) {
+      const WorkerJob job{name, reader_of(o, name), threads, cold, o.vector_path, o.executions, o.states / fmt::format("frames-{}", getpid()),
+                          std::chrono::steady_clock::now()};
+      team.push_back(std::make_unique<Worker>(job, interrupt));
+      team.back()->start();
+    }
+    return team;
+  };
+  const auto take_processes = [&](const Team& team) {
+    r.processes.clear();
+    for (const auto& w : team) r.processes.push_back(w->process());
+  };
+  Team workers = start(false);
+  const bool nonsmooth = workers.front()->process().nonsmooth;
+  Team cold = nonsmooth ? start(true) : Team{};              // what the warm start is worth
+  r.warm_up = o.warm_up ? o.warm_up : nonsmooth ? 20 : 100;
+  for (Team* team : {&cold, &workers}) {
+    for (auto& w : *team) {
+      const double step_seconds = w->warm_up(r.warm_up);
+      if (w == workers.front()) r.steps = steps_of_window(o, step_seconds, nonsmooth);
+    }
+    take_processes(*team);
+    check_agreement(r, &Process::hash, r.warm_up);
   }
-  for (auto& w : workers) {
-    const double step_seconds = w->warm_up(o.warm_up);
-    if (w == workers.front()) r.steps = steps_of_window(o, step_seconds);
-    r.processes.push_back(w->process());
-  }
-  check_agreement(r, &Process::hash, o.warm_up);
 
   Waiting waiting(name, o.repeats);
-  for (std::int64_t k = 0; k < o.repeats; waiting.show(++k))
+  for (std::int64_t k = 0; k < o.repeats; waiting.show(++k)) {
     for (const Execution e : o.executions)
       for (const bool frame : {false, true})
         if (!frame || (o.frames && e == o.executions.front()))
           for (auto& w : workers) r.windows.push_back(w->window(e, r.steps, frame));
-
-  r.processes.clear();
-  for (auto& w : workers) {
-    w->finish();
-    r.processes.push_back(w->process());
+    for (auto& w : cold) r.windows.push_back(w->window(o.executions.front(), r.steps, false));
   }
-  check_agreement(r, &Process::last_hash, o.warm_up + std::int64_t(r.windows.size() / workers.size()) * r.steps);
+
+  for (Team* team : {&cold, &workers}) {
+    for (auto& w : *team) w->finish();
+    take_processes(*team);
+    const auto steps = std::count_if(r.windows.begin(), r.windows.end(),
+                                     [&](const Window& w) { return w.threads == o.threads.front() && w.cold == (team == &cold); });
+    check_agreement(r, &Process::last_hash, r.warm_up + std::int64_t(steps) * r.steps);
+    team->clear();
+  }
   r.load_after = load_average();
-  workers.clear();
   if (o.roofline) add_rooflines(r, interrupt);
   return r;
 }

@@ -16,9 +16,10 @@ struct BenchOptions {
   std::vector<std::string> scenes;                    // names, or paths of scene files
   std::vector<int> threads;                           // ascending
   std::vector<Execution> executions;                  // the first is the one that rates and shares are of
-  std::int64_t warm_up = 100, repeats = 5, steps = 0; // steps of a window; 0: about a second
+  std::int64_t warm_up = 0;                           // 0: 100 steps, of nonsmooth DEM 20
+  std::int64_t repeats = 5, steps = 0;                // steps of a window; 0: about a second
   VectorPath vector_path = best_vector_path();
-  std::string method;                                 // of scene files; empty: what they say
+  std::string method;                                 // empty: what the scenes say
   std::filesystem::path states;
   bool frames = false, roofline = false;
 };

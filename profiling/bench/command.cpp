@@ -76,9 +76,8 @@ CLI::App* BenchCommand::add_to(CLI::App& program) {
   verb->add_option("--vector", vector_, vector_option_help)->type_name(vector_option_words)->capture_default_str();
   verb->add_option("--execution", executions_, "what runs a step: graph, list, serial, separated by commas")
       ->capture_default_str();
-  verb->add_option("--warm-up", options_.warm_up, "steps before the first window")
-      ->check(CLI::Range(1, 1000000))
-      ->capture_default_str();
+  verb->add_option("--warm-up", options_.warm_up, "steps before the first window (default: 100, of nonsmooth DEM 20)")
+      ->check(CLI::Range(1, 1000000));
   verb->add_option("--repeats", options_.repeats, "windows to time with every thread count")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();

@@ -21,6 +21,10 @@ std::string csv_of(const BenchMachine& m, const std::vector<SceneResult>& result
         const Process& p = r.processes[t];
         const auto n = double(r.particles());
         const auto number = [](double x) { return fmt::format("{}", x); };
+        const bool of_solver = r.nonsmooth() && e == r.executions.front();
+        const SolverSummary warm = of_solver ? summarize_solver(r, s.threads, false) : SolverSummary{};
+        const SolverSummary cold = of_solver ? summarize_solver(r, s.threads, true) : SolverSummary{};
+        const auto of = [&](double x) { return of_solver ? number(x) : ""; };
         const Cell cells[] = {{"scene", quoted(r.name)},
                               {"particles", std::to_string(r.particles())},
                               {"threads", std::to_string(s.threads)},
@@ -37,6 +41,19 @@ std::string csv_of(const BenchMachine& m, const std::vector<SceneResult>& result
                               {"steps_per_search", s.searches ? number(double(s.steps) / double(s.searches)) : ""},
                               {"steps_per_listing", s.listings ? number(double(s.steps) / double(s.listings)) : ""},
                               {"peak_bytes_per_particle", number((p.peak_memory - p.memory_before) / n)},
+                              {"method", r.nonsmooth() ? "ndem" : "sdem"},
+                              {"time_step", number(p.time_step)},
+                              {"contact_sweeps_per_second", of(warm.rate.median)},
+                              {"sweep_efficiency", warm.efficiency ? number(warm.efficiency->median) : ""},
+                              {"sweeps_per_step", of(warm.sweeps)},
+                              {"residual", of(warm.residual)},
+                              {"wall_seconds_per_simulated_second", of(warm.seconds_per_second.median)},
+                              {"sweeps_per_step_cold", of(cold.sweeps)},
+                              {"wall_seconds_per_simulated_second_cold", of(cold.seconds_per_second.median)},
+                              {"share_detection", of(warm.detection)},
+                              {"share_setup", of(warm.setup)},
+                              {"share_impact", of(warm.impact)},
+                              {"share_solve", of(warm.solve)},
                               {"state_hash", p.hash},
                               {"load_average_before", number(r.load_before)},
                               {"load_average_after", number(r.load_after)},

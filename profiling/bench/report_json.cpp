@@ -31,6 +31,21 @@ json json_of(const Summary& s, const SceneResult& r) {
   return out;
 }
 
+json json_of(const SolverSummary& s) {
+  return {{"threads", s.threads},
+          {"warm_start", !s.cold},
+          {"contact_sweeps_per_second", json_of(s.rate)},
+          {"efficiency", s.efficiency ? json_of(*s.efficiency) : json()},
+          {"wall_seconds_per_simulated_second", json_of(s.seconds_per_second)},
+          {"contacts", s.contacts},
+          {"sweeps_per_step", s.sweeps},
+          {"impact_sweeps_per_step", s.impact_sweeps},
+          {"residual", s.residual},
+          {"steps", s.steps},
+          {"steps_unsolved", s.unsolved},
+          {"shares", {{"detection", s.detection}, {"setup", s.setup}, {"impact", s.impact}, {"solve", s.solve}, {"rest", s.rest}}}};
+}
+
 json json_of(const Process& p) {
   const auto n = double(std::max<std::size_t>(1, p.particles));
   return {{"threads", p.threads},
@@ -46,7 +61,7 @@ json json_of(const Process& p) {
 }
 
 json json_of(const Window& w) {
-  return {{"threads", w.threads}, {"execution", w.execution}, {"frame", w.frame}, {"steps", w.steps}, {"seconds", w.seconds},
+  return {{"threads", w.threads}, {"warm_start", !w.cold}, {"execution", w.execution}, {"frame", w.frame}, {"steps", w.steps}, {"seconds", w.seconds},
           {"searches", w.searches}, {"listings", w.listings}, {"pairs", w.pairs}, {"wall_contacts", w.wall_contacts}};
 }
 
@@ -85,6 +100,7 @@ json json_of(const SceneResult& r) {
     frames.push_back({{"threads", c.threads}, {"seconds", json_of(c.seconds)}, {"share_of_1000_steps", c.share_of_1000_steps}});
   json out{{"name", r.name},
            {"what", r.what},
+           {"method", r.nonsmooth() ? "ndem" : "sdem"},
            {"particles", r.particles()},
            {"warm_up", r.warm_up},
            {"steps_per_window", r.steps},
@@ -95,6 +111,12 @@ json json_of(const SceneResult& r) {
            {"frames", frames},
            {"processes", list_of(r.processes)},
            {"windows", list_of(r.windows)}};
+  if (r.nonsmooth()) {
+    out["time_step"] = r.processes.front().time_step;
+    out["solver"] = json::array();
+    for (const int threads : r.threads)
+      for (const bool cold : {false, true}) out["solver"].push_back(json_of(summarize_solver(r, threads, cold)));
+  }
   if (!r.rooflines.empty()) out["roofline"] = list_of(r.rooflines);
   return out;
 }
@@ -104,8 +126,9 @@ json json_of(const SceneResult& r) {
 json json_of(const BenchMachine& m, const BenchOptions& o, const std::vector<SceneResult>& results, bool interrupted) {
   json scenes = json::array();
   for (const SceneResult& r : results) scenes.push_back(json_of(r));
+  const bool nonsmooth = std::any_of(results.begin(), results.end(), [](const SceneResult& r) { return r.nonsmooth(); });
   return {{"software", m.version},      {"commit", m.commit},
-          {"method", "sdem"},           {"processor", m.processor},
+          {"method", nonsmooth ? "ndem" : "sdem"}, {"processor", m.processor},
           {"processors", m.processors}, {"compiler", m.compiler},
           {"flags", m.flags},           {"build_type", m.build},
           {"vector_path", m.vector_path}, {"program_start_seconds", m.program_start},

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include "profiling/bench/bench_scenes.h"
 #include "profiling/bench/report.h"
 #include "profiling/readable.h"
 #include "scenes/machine.h"
@@ -73,6 +74,26 @@ std::string kernel_table(const SceneResult& r, const std::vector<Summary>& by_th
   return out;
 }
 
+// Every thread count, beginning from the impulses of the last step and from none.
+std::string solver_table(const SceneResult& r) {
+  const SolverSummary first = summarize_solver(r, r.threads.front(), false);
+  const auto percent = [](double share) { return fmt::format("{:.0f} %", 100 * share); };
+  std::string out = fmt::format("  nonsmooth DEM: {} contacts, {} impact sweeps, a step of {} ms\n  a step is detection {}, setup {}, impact {}, solve {}, rest {}\n",
+                                count(std::size_t(std::llround(first.contacts))), digits(first.impact_sweeps),
+                                digits(1e3 * r.processes.front().time_step), percent(first.detection), percent(first.setup),
+                                percent(first.impact), percent(first.solve), percent(first.rest));
+  out += fmt::format("  {:>7} {:<5} {:<21} {:<20}{:>7}{:>9}{:>9}  {}\n", "threads", "start", " M contact sweeps/s", " efficiency", "sweeps", "residual",
+                     "unsolved", " s/simulated s");
+  for (const int threads : r.threads)
+    for (const bool cold : {false, true}) {
+      const SolverSummary s = summarize_solver(r, threads, cold);
+      out += fmt::format("  {:>7} {:<5} {:<21} {:<20}{:>7}{:>9.1e}{:>9}  {}\n", threads, cold ? "cold" : "warm", with_spread(s.rate, 1e-6),
+                         s.efficiency ? with_spread(*s.efficiency) : "", digits(s.sweeps), s.residual, fmt::format("{}/{}", s.unsolved, s.steps),
+                         with_spread(s.seconds_per_second));
+    }
+  return out;
+}
+
 std::string roofline_table(const Roofline& f) {
   std::string out = fmt::format("  at best with {}: {} G additions and multiplications/s, {} G divisions and roots/s,\n   ",
                                 thread_text(f.threads), digits(f.limits.flops * 1e-9), digits(f.limits.roots * 1e-9));
@@ -104,11 +125,13 @@ BenchMachine bench_machine(const BenchOptions& o) {
 
 std::string text_head(const BenchMachine& m, const BenchOptions& o) {
   const std::string commit = m.commit.empty() ? "" : " (" + m.commit + ")";
-  const std::string window = o.steps ? fmt::format("{} steps", o.steps) : "about 1 s, at least 20 steps";
+  const std::string window = o.steps ? fmt::format("{} steps", o.steps) : o.method == "ndem" ? "about 1 s, at least 5 steps" : "about 1 s, at least 20 steps";
+  const bool files = o.method.empty() && !std::all_of(o.scenes.begin(), o.scenes.end(), find_bench_scene);
+  const char* const method = files ? "methods of the scenes" : method_title(o.method == "ndem" ? Method::ndem : Method::sdem);
   return fmt::format(
-      "{}{}, smooth DEM; {}, {}; load average {:.2f}\n{}, {}; {}; vector path: {}\n"
+      "{}{}, {}; {}, {}; load average {:.2f}\n{}, {}; {}; vector path: {}\n"
       "median (least - most) of {} windows of {}; rates in million particle-steps per second\n",
-      m.version, commit, m.processor, m.processors == 1 ? "1 processor" : fmt::format("{} processors", m.processors),
+      m.version, commit, method, m.processor, m.processors == 1 ? "1 processor" : fmt::format("{} processors", m.processors),
       load_average(), m.compiler, m.build, m.flags, m.vector_path, o.repeats, window);
 }
 
@@ -143,6 +166,7 @@ std::string text_of(const SceneResult& r, bool all_kernels) {
     }
     out += right(grouped_digits(std::llround((p.peak_memory - p.memory_before) / double(n))), 15) + "\n";
   }
+  if (r.nonsmooth()) out += solver_table(r);
   out += all_kernels ? kernel_table(r, by_threads) : main_shares(first);
   for (const FrameCost& c : frame_costs(r))
     out += fmt::format("  a frame adds {} ms with {}: {:.2f} % of 1000 steps\n", with_spread(c.seconds, 1e3),

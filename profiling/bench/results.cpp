@@ -11,10 +11,10 @@ namespace {
 constexpr std::array<std::pair<const char*, Execution>, 3> executions{
     {{"serial", Execution::serial}, {"list", Execution::list}, {"graph", Execution::graph}}};
 
-std::vector<const Window*> windows_of(const SceneResult& r, int threads, const std::string& execution, bool frame) {
+std::vector<const Window*> windows_of(const SceneResult& r, int threads, const std::string& execution, bool frame, bool cold = false) {
   std::vector<const Window*> out;
   for (const Window& w : r.windows)
-    if (w.threads == threads && w.execution == execution && w.frame == frame) out.push_back(&w);
+    if (w.threads == threads && w.execution == execution && w.frame == frame && w.cold == cold) out.push_back(&w);
   return out;
 }
 
@@ -35,6 +35,7 @@ std::optional<Execution> execution_of(const std::string& name) {
 }
 
 void check_agreement(const SceneResult& r, std::string Process::* hash, std::int64_t steps) {
+  if (r.processes.empty()) return;
   const Process& first = r.processes.front();
   for (const Process& p : r.processes)
     if (p.*hash != first.*hash)
@@ -81,13 +82,66 @@ Summary summarize(const SceneResult& r, int threads, const std::string& executio
   return s;
 }
 
+namespace {
+
+double SolverSummary::*stage_of(const std::string& kernel) {
+  const auto begins = [&](const char* word) { return kernel.rfind(word, 0) == 0; };
+  if (begins("check_motion") || begins("reorder") || begins("broadphase") || begins("contact_listing") || begins("contact_hashing") ||
+      begins("contact_geometry"))
+    return &SolverSummary::detection;
+  if (begins("constraint_setup") || begins("contact_start")) return &SolverSummary::setup;
+  if (begins("impact_solve")) return &SolverSummary::impact;
+  if (begins("contact_solve")) return &SolverSummary::solve;
+  return &SolverSummary::rest;
+}
+
+double seconds_in_sweeps(const Window& w) {
+  const auto k = std::find_if(w.kernels.begin(), w.kernels.end(), [](const KernelTime& x) { return x.name == "contact_solve"; });
+  return k == w.kernels.end() ? 0 : k->total;
+}
+
+}  // namespace
+
+SolverSummary summarize_solver(const SceneResult& r, int threads, bool cold) {
+  SolverSummary s{.threads = threads, .cold = cold};
+  const std::string& execution = r.executions.front();
+  const auto windows = windows_of(r, threads, execution, false, cold);
+  const auto beside = windows_of(r, r.threads.front(), execution, false, cold);
+  const double h = r.processes.front().time_step;
+  const auto rate = [](const Window& w) { return seconds_in_sweeps(w) > 0 ? w.solver.contact_sweeps / seconds_in_sweeps(w) : 0; };
+  std::vector<double> rates, walls, efficiencies;
+  double contact_sweeps = 0, all = 0;
+  for (std::size_t k = 0; k < windows.size(); ++k) {
+    const Window& w = *windows[k];
+    rates.push_back(rate(w));
+    walls.push_back(w.seconds / (double(w.steps) * h));
+    if (threads != r.threads.front() && k < beside.size() && rate(*beside[k]) > 0)
+      efficiencies.push_back(rates.back() * r.threads.front() / (threads * rate(*beside[k])));
+    s.steps += w.steps;
+    s.unsolved += w.solver.unsolved;
+    s.sweeps += double(w.solver.sweeps);
+    s.impact_sweeps += double(w.solver.impact_sweeps);
+    s.residual = std::max(s.residual, w.solver.residual);
+    contact_sweeps += w.solver.contact_sweeps;
+    for (const KernelTime& kernel : w.kernels) s.*stage_of(kernel.name) += kernel.total, all += kernel.total;
+  }
+  s.contacts = s.sweeps > 0 ? contact_sweeps / s.sweeps : 0;
+  if (all > 0)
+    for (const auto share : {&SolverSummary::detection, &SolverSummary::setup, &SolverSummary::impact, &SolverSummary::solve, &SolverSummary::rest}) s.*share /= all;
+  if (s.steps > 0) s.sweeps /= double(s.steps), s.impact_sweeps /= double(s.steps);
+  s.rate = spread_of(rates);
+  s.seconds_per_second = spread_of(walls);
+  if (!efficiencies.empty()) s.efficiency = spread_of(efficiencies);
+  return s;
+}
+
 std::vector<FrameCost> frame_costs(const SceneResult& r) {
   std::vector<FrameCost> out;
   for (const int threads : r.threads) {
     std::vector<double> extra, step;
     const Window* before = nullptr;          // the window without a frame that ran just before
     for (const Window& w : r.windows) {
-      if (w.threads != threads || w.execution != r.executions.front()) continue;
+      if (w.threads != threads || w.cold || w.execution != r.executions.front()) continue;
       if (w.frame && before) {
         extra.push_back(w.seconds - before->seconds / double(before->steps) * double(w.steps));
         step.push_back(before->seconds / double(before->steps));

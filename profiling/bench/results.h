@@ -15,9 +15,17 @@ struct KernelTime {
   double total = 0, busy = 0;               // [s] wall time of its calls; busy time of all threads in them
 };
 
+// How the solver of nonsmooth DEM did in some steps.
+struct SolverWork {
+  std::int64_t sweeps = 0, impact_sweeps = 0, unsolved = 0;   // unsolved: steps that stopped above the tolerance
+  double contact_sweeps = 0;                // contacts times sweeps
+  double residual = 0;                      // greatest
+};
+
 // Some steps without a break.
 struct Window {
   int threads = 1;
+  bool cold = false;                        // without warm start
   std::string execution;
   bool frame = false;                       // a frame was copied at its start, and written by its end
   std::int64_t steps = 0, searches = 0, listings = 0;
@@ -25,11 +33,14 @@ struct Window {
   double pairs = 0, wall_contacts = 0;      // that touch, mean of both ends
   double candidates = 0, wall_candidates = 0;
   std::vector<KernelTime> kernels;
+  SolverWork solver;
 };
 
 // A process that ran the scene with so many threads.
 struct Process {
   int threads = 1;
+  bool nonsmooth = false;
+  double time_step = 0;                     // [s]
   std::size_t particles = 0;
   double read_seconds = 0, first_step_seconds = 0;   // since it was started: scene and state read; first step done
   double memory_before = 0, memory = 0, peak_memory = 0;   // [byte] before reading; at the end; greatest
@@ -59,6 +70,7 @@ struct SceneResult {
   std::vector<Window> windows;              // in the order that they ran: of one repeat, all thread counts lie side by side
   std::vector<Roofline> rooflines;          // by thread count, if asked for
 
+  bool nonsmooth() const { return !processes.empty() && processes.front().nonsmooth; }
   std::size_t particles() const { return processes.empty() ? 0 : processes.front().particles; }
 };
 
@@ -80,6 +92,20 @@ struct Summary {
   std::vector<KernelTime> kernels;          // [s] a step
 };
 Summary summarize(const SceneResult&, int threads, const std::string& execution);
+
+// What the solver of nonsmooth DEM did with some threads.
+struct SolverSummary {
+  int threads = 1;
+  bool cold = false;
+  Spread rate;                              // contact sweeps per second: contacts times sweeps, over the time of the sweeps alone
+  std::optional<Spread> efficiency;         // as in Summary
+  Spread seconds_per_second;                // wall time of a simulated second
+  double contacts = 0, sweeps = 0, impact_sweeps = 0;   // of a step
+  double residual = 0;                      // greatest
+  std::int64_t steps = 0, unsolved = 0;
+  double detection = 0, setup = 0, impact = 0, solve = 0, rest = 0;   // shares of the kernels' wall time
+};
+SolverSummary summarize_solver(const SceneResult&, int threads, bool cold);
 
 // What a frame costs: extra wall time of windows with one, over the windows beside them.
 struct FrameCost { int threads = 1; Spread seconds; double share_of_1000_steps = 0; };

@@ -12,9 +12,10 @@ namespace skred {
 using nlohmann::json;
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(KernelTime, name, total, busy)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Window, threads, execution, frame, steps, searches, listings, seconds, pairs, wall_contacts,
-                                   candidates, wall_candidates, kernels)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Process, threads, particles, read_seconds, first_step_seconds, memory_before, memory,
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SolverWork, sweeps, impact_sweeps, unsolved, contact_sweeps, residual)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Window, threads, cold, execution, frame, steps, searches, listings, seconds, pairs, wall_contacts,
+                                   candidates, wall_candidates, kernels, solver)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Process, threads, nonsmooth, time_step, particles, read_seconds, first_step_seconds, memory_before, memory,
                                    peak_memory, hash, last_hash)
 
 namespace {
@@ -40,11 +41,14 @@ class Runner {
     process_.threads = job.threads;
     process_.memory_before = resident_memory();
     scene_ = job.read();
+    if (job.cold) scene_.solver.warm_start = false;
     Prepared prepared = prepare(scene_, false);
     prepared.model.vector_path = job.vector_path;
     process_.read_seconds = seconds_since(job.started);
     sim_ = std::make_unique<Simulation>(std::move(prepared.world), std::move(prepared.model), job.threads);
     process_.particles = std::get<Particles>(sim_->world()).rows();
+    process_.nonsmooth = scene_.method == Method::ndem;
+    process_.time_step = sim_->model().time_step;
     sim_->start();
     step(job.executions.front());
     process_.first_step_seconds = seconds_since(job.started);
@@ -65,6 +69,11 @@ class Runner {
     sim_->step(how);
     sim_->timeline().end_step();
     check_sound(*sim_, job_.name);
+    const Solver& s = std::get<Solver>(sim_->world());       // zeros in smooth DEM
+    solver_.sweeps += s.sweeps.data[0];
+    solver_.impact_sweeps += s.impact_sweeps.data[0];
+    solver_.contact_sweeps += double(s.sweeps.data[0]) * double(s.contacts.data[0]);
+    solver_.residual = std::max(solver_.residual, s.residual.data[0]);
   }
 
   json warm_up(std::int64_t last) {
@@ -77,13 +86,18 @@ class Runner {
   }
 
   json window(Execution how, std::int64_t steps, bool frame) {
-    Window w{.threads = job_.threads, .execution = execution_name(how), .frame = frame, .steps = steps};
+    Window w{.threads = job_.threads, .cold = job_.cold, .execution = execution_name(how), .frame = frame, .steps = steps};
     const Search& search = std::get<Search>(sim_->world());
     const Touching first = touching(*sim_);
     const std::int64_t searches = search.count.data[0], listings = search.listings.data[0];
+    const Column<std::int64_t>& unsolved = std::get<Solver>(sim_->world()).unsolved;
+    const std::int64_t unsolved_before = unsolved.data[0];
+    solver_ = {};
     const Timeline::Totals before = sim_->timeline().totals();
     w.seconds = frame ? timed_steps_with_frame(how, steps) : timed_steps(how, steps);
     const Timeline::Totals after = sim_->timeline().totals();
+    w.solver = solver_;
+    w.solver.unsolved = unsolved.data[0] - unsolved_before;
     const Touching last = touching(*sim_);
     w.searches = search.count.data[0] - searches;
     w.listings = search.listings.data[0] - listings;
@@ -133,6 +147,7 @@ class Runner {
   WorkerJob job_;
   Scene scene_;
   Process process_;
+  SolverWork solver_;                                        // since a window began
   std::unique_ptr<Simulation> sim_;
 };
 

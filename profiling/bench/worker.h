@@ -14,6 +14,7 @@ struct WorkerJob {
   std::string name;                                   // of the scene
   std::function<Scene()> read;
   int threads = 1;
+  bool cold = false;                                  // nonsmooth DEM without warm start
   VectorPath vector_path = VectorPath::scalar;
   std::vector<Execution> executions;                  // of the warm-up, in turn
   std::filesystem::path frames;                       // folder for frames; it is gone afterwards

@@ -105,6 +105,43 @@ TEST(BenchSummary, AStateThatDependsOnTheThreadsIsAFailure) {
   EXPECT_THROW(check_agreement(r, &Process::hash, 100), NumericalFailure);
 }
 
+TEST(BenchSolver, SweepsOverTheTimeOfTheSweepsAlone) {
+  SceneResult r{.name = "x", .threads = {1, 2}, .executions = {"graph"}};
+  r.processes = {{.threads = 1, .nonsmooth = true, .time_step = 1e-3, .particles = 1000}, {.threads = 2, .nonsmooth = true, .time_step = 1e-3, .particles = 1000}};
+  for (const double slow : {1.0, 1.5, 3.0})
+    for (const bool cold : {false, true})
+      for (const int threads : {1, 2}) {
+        Window w = window(threads, threads == 1 ? 1.6 * slow : slow);
+        w.cold = cold;
+        w.kernels = {{"broadphase", 0.1 * w.seconds, 0}, {"constraint_setup", 0.2 * w.seconds, 0}, {"contact_start", 0.1 * w.seconds, 0},
+                     {"impact_solve", 0.05 * w.seconds, 0}, {"contact_solve", 0.5 * w.seconds, 0}, {"integrate", 0.05 * w.seconds, 0}};
+        w.solver = {.sweeps = cold ? 4000 : 1000, .impact_sweeps = 50, .unsolved = 1, .contact_sweeps = cold ? 8e6 : 2e6, .residual = 1e-3 / slow};
+        r.windows.push_back(w);
+      }
+  const SolverSummary warm = summarize_solver(r, 2, false), cold = summarize_solver(r, 2, true);
+  EXPECT_DOUBLE_EQ(warm.rate.median, 2e6 / (0.5 * 1.5));
+  EXPECT_NEAR(warm.efficiency->least, 0.8, 1e-12);
+  EXPECT_FALSE(summarize_solver(r, 1, false).efficiency);
+  EXPECT_DOUBLE_EQ(warm.seconds_per_second.median, 1.5 / (100 * 1e-3));
+  EXPECT_DOUBLE_EQ(warm.contacts, 2000);
+  EXPECT_DOUBLE_EQ(warm.sweeps, 10);                         // of a step
+  EXPECT_DOUBLE_EQ(cold.sweeps, 40);
+  EXPECT_DOUBLE_EQ(warm.impact_sweeps, 0.5);
+  EXPECT_EQ(warm.residual, 1e-3);
+  EXPECT_EQ(warm.unsolved, 3);
+  EXPECT_EQ(warm.steps, 300);
+  EXPECT_NEAR(warm.detection, 0.1, 1e-12);
+  EXPECT_NEAR(warm.setup, 0.3, 1e-12);
+  EXPECT_NEAR(warm.impact, 0.05, 1e-12);
+  EXPECT_NEAR(warm.solve, 0.5, 1e-12);
+  EXPECT_NEAR(warm.rest, 0.05, 1e-12);
+  EXPECT_EQ(summarize(r, 2, "graph").windows, 3u) << "rates are of the warm start";
+  const std::string text = text_of(r, false);
+  for (std::size_t at = 0, end; (end = text.find('\n', at)) != std::string::npos; at = end + 1)
+    EXPECT_LE(end - at, 114u) << text.substr(at, end - at);
+  EXPECT_NE(text.find("nonsmooth DEM"), std::string::npos);
+}
+
 TEST(BenchReport, RowsHaveTheColumnsOfTheHead) {
   const std::string csv = csv_of({}, {drifting()});
   const auto commas = [&](std::size_t from, std::size_t to) {

@@ -55,12 +55,12 @@ def lammps(name="lammps", seconds=0.5, contacts=5.1, atoms=1000, last="", code=0
     return executable(name, text)
 
 
-def state(n=1000):
+def state(n=1000, name="bed-1k"):
     import h5py
     import numpy as np
     os.makedirs("states", exist_ok=True)
     numbers = np.random.default_rng(1)
-    with h5py.File("states/bed-1k-1.h5", "w") as file:
+    with h5py.File(f"states/{name}-1.h5", "w") as file:
         file["position"] = numbers.uniform(-0.01, 0.3, (n, 3))
         file["velocity"] = numbers.normal(size=(n, 3))
         file["angular_velocity"] = numbers.normal(size=(n, 3))
@@ -160,6 +160,38 @@ def case_errors():
     assert "no-such-program: no such program" in compare("--lammps", "no-such-program", code=1).stderr
     assert "--settle-only" in compare("--lammps", lammps(), code=1).stderr
     assert "no scene sea" in compare("--scenes", "sea", code=1).stderr
+
+
+def sweeps(*options, code=0):
+    """With a compiler that makes programs which found 2 million contact sweeps a second."""
+    executable("counter", """#!/bin/bash
+[[ $1 == column && $3 == 50 && $(wc -w <"$2") == $((11000 * 6)) ]] || exit 9
+echo '{"contacts": 23000, "contact_sweeps_per_second": 2e6}'
+""")
+    os.makedirs("bin", exist_ok=True)
+    executable("bin/g++", f"""#!/bin/bash
+while [[ $1 != -o ]]; do shift; done
+cp {Path("counter").absolute()} "$2"
+""")
+    skred = executable("skred", """#!/bin/bash
+[[ " $* " == *" --set solver.iterations=50 --set solver.tolerance=0 "* ]] || exit 9
+while (($# > 1)); do [[ $1 == --output ]] && output=$2; shift; done
+mkdir -p "$output"
+echo '{"iterations": 50, "steps": 3, "contact_sweeps": 3000000, "seconds_per_sweep": 0.001}' >"$output/summary.json"
+""")
+    done = subprocess.run([sys.executable, PEERS / "sweeps", "--skred", skred, "--states", "states", "--scenes", "column-11k", "--repeats", "2",
+                           *options], capture_output=True, text=True, check=False, env=os.environ | {"PATH": f"{Path('bin').absolute()}:{os.environ['PATH']}"})
+    assert done.returncode == code, done.stdout + done.stderr
+    return done
+
+
+def case_sweeps_in_turn():
+    state(11000, "column-11k")
+    done = sweeps()
+    assert [line.split()[1] for line in done.stderr.splitlines()] == ["Skred", "Bullet", "Siconos", "Bullet", "Siconos", "Skred"], done.stderr
+    assert "| column-11k | Skred | 20000 | 20 (20 - 20) |  |" in done.stdout, done.stdout
+    assert "| column-11k | Siconos | 23000 | 2 (2 - 2) | 10 (10 - 10) |" in done.stdout, done.stdout
+    assert "a drum or a column" in sweeps("--scenes", "bed-1k", code=1).stderr
 
 
 def main():

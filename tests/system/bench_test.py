@@ -75,6 +75,27 @@ def case_states_are_kept_and_made_once(program):
                 "1 ms", "--quiet")
 
 
+def case_nonsmooth(program):
+    """The solver's work beside the rates, from the last impulses and from none; all thread counts did the same."""
+    settle = ["--scene", "bed-1k", "--method", "ndem"]
+    done = program(*QUICK, *settle, "--csv", "rows.csv")
+    contains(done.stdout, ["nonsmooth DEM", "M contact sweeps/s", "warm", "cold", "s/simulated s", "detection", "solve"])
+    assert "smooth DEM" not in done.stdout.replace("nonsmooth DEM", "") and max(map(len, done.stdout.splitlines())) <= 110, done.stdout
+    rows = list(csv.DictReader(io.StringIO(read("rows.csv"))))
+    assert {r["method"] for r in rows} == {"ndem"} and {float(r["time_step"]) for r in rows} == {1e-3}
+    assert [r["contact_sweeps_per_second"] != "" for r in rows] == [True, False, False] * 2
+    result = json.loads(program(*QUICK, *settle, "--execution", "graph", "--json", "-").stdout)
+    (bed,) = result["scenes"]
+    assert result["method"] == bed["method"] == "ndem" and bed["time_step"] == 1e-3
+    assert [(s["threads"], s["warm_start"]) for s in bed["solver"]] == [(1, True), (1, False), (2, True), (2, False)]
+    for s in bed["solver"]:
+        assert s["steps"] == 40 and 2000 < s["contacts"] < 3500 and s["contact_sweeps_per_second"]["min"] > 1e5
+        assert s["steps_unsolved"] == 0 and 0 < s["residual"] <= 1e-3 and s["wall_seconds_per_simulated_second"]["min"] > 0
+        assert (s["efficiency"] is None) == (s["threads"] == 1) and abs(sum(s["shares"].values()) - 1) < 1e-6
+    warm, cold = (s["sweeps_per_step"] for s in bed["solver"][:2])
+    assert 1 <= warm < cold, (warm, cold)
+
+
 def case_scene_file(program):
     write("small.yaml", SMALL)
     done = program(*QUICK, "--scene", "small.yaml", "--execution", "list", "--json", "-")
@@ -104,8 +125,6 @@ def case_refused(program):
     program("bench", "--json", "-", "--csv", "-", code=2, says=["standard output"])
     write("broken.yaml", SMALL.replace("2500", "heavy"))
     program("bench", "--scene", "bed-1k,broken.yaml", code=3, says=["broken.yaml:3", "density"])
-    write("small.yaml", SMALL)
-    program("bench", "--scene", "small.yaml", "--method", "ndem", code=3, says=["not in this version"])
 
 
 def case_files_that_cannot_be_written(program):
@@ -114,7 +133,8 @@ def case_files_that_cannot_be_written(program):
     write("small.yaml", SMALL)
     program(*QUICK, "--scene", "small.yaml", "--json", "none/x.json", code=5, says=["none/x.json: cannot be written"])
     write("old.json", "old")
-    program("bench", "--scene", "small.yaml", "--method", "ndem", "--json", "old.json", code=3)
+    write("broken.yaml", SMALL.replace("2500", "heavy"))
+    program("bench", "--scene", "broken.yaml", "--json", "old.json", code=3)
     assert read("old.json") == "old", "a failure leaves an older result alone"
 
 
