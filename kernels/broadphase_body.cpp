@@ -178,13 +178,13 @@ void assign_slots(const MeshContacts& touched, const Pose& pose, double* overlap
 }  // namespace
 
 template <bool ahead>
-void ContactGeometryBody<ahead>::operator()(Parallel parallel, Read<&BodyContacts::particle> particle, Read<&BodyContacts::geometry> geometry,
-                                            Read<&BodyContacts::slot> slot, Read<&BodyContacts::first_triangle> first_triangle, Read<&BodyContacts::triangle_count> triangle_count,
-                                            Read<&Triangles::triangle> triangle, Read<&Particles::position> position, If<ahead, Read<&Particles::velocity>> velocity,
-                                            Read<&Particles::radius> radius, Read<&Geometries::body> body, Read<&Geometries::shape> shape, Read<&Geometries::local> local,
-                                            Read<&Bodies::pose> pose, If<ahead, Read<&Bodies::velocity>> body_velocity, If<ahead, Read<&Bodies::angular_velocity>> body_spin,
-                                            Update<&BodyContacts::overlap> overlap, Update<&BodyContacts::normal> normal,
-                                            Update<&BodyContacts::curvature> curvature) const {
+void ContactGeometryBody<ahead>::operator()(Parallel parallel, Read<&BodyContacts::particle> particle,
+    Read<&BodyContacts::geometry> geometry, Read<&BodyContacts::slot> slot, Read<&BodyContacts::first_triangle> first_triangle,
+    Read<&BodyContacts::triangle_count> triangle_count, Read<&Triangles::triangle> triangle, Read<&Particles::position> position,
+    If<ahead, Read<&Particles::velocity>> velocity, Read<&Particles::radius> radius, Read<&Geometries::body> body,
+    Read<&Geometries::shape> shape, Read<&Geometries::local> local, Read<&Bodies::pose> pose,
+    If<ahead, Read<&Bodies::velocity>> body_velocity, If<ahead, Read<&Bodies::angular_velocity>> body_spin,
+    Update<&BodyContacts::overlap> overlap, Update<&BodyContacts::normal> normal, Update<&BodyContacts::curvature> curvature) const {
   std::vector<Pose> world(shape.size());
   for (std::size_t g = 0; g < shape.size(); ++g) world[g] = pose[body[g]] * local[g];
   parallel(geometry.size(), 1024, [&](std::size_t begin, std::size_t end) {
