@@ -35,7 +35,8 @@ struct alignas(64) SolverBody {
 };
 
 // Contacts that share no body: any order of them, or all at once, is the same sequence of updates. Lanes from `count` on hold
-// zeros and the bodies of the first, and are not written back.
+// zeros and the bodies of a lane before, which whatever the number of lanes in a pack is in the same pack: what they write there
+// is written over.
 struct alignas(64) ContactGroup {
   static constexpr int size = 8;
   using Lanes = std::array<double, size>;

@@ -42,39 +42,37 @@ template <class R, class Where> QuadT<R> load_quads(const Where& where) {
   }
 }
 
-// Writes the first `count` lanes to `where(k)`.
-template <class R, class Where> void store_quads(const QuadT<R>& q, int count, const Where& where) {
+// Writes them to `where(k)`, the last lane first: where two lanes name the same place, the first of them is kept.
+template <class R, class Where> void store_quads(const QuadT<R>& q, const Where& where) {
   if constexpr (lanes<R> == 1) {
     *where(0) = {q.v, q.s};
+  } else if constexpr (lanes<R> == 2) {
+    for (int k = 1; k >= 0; --k) *where(k) = {{q.v.x[k], q.v.y[k], q.v.z[k]}, q.s[k]};
   } else {
-    if (count < lanes<R> || lanes<R> == 2) {
-      for (int k = 0; k < count && k < lanes<R>; ++k) *where(k) = {{q.v.x[k], q.v.y[k], q.v.z[k]}, q.s[k]};
-      return;
-    }
 #if defined(__AVX__)
     const auto put = [&](int k, Four row) { _mm256_store_pd(&where(k)->v.x, row); };
     if constexpr (lanes<R> == 4) {
       const Four x(q.v.x), y(q.v.y), z(q.v.z), s(q.s);
       const Four xy = __builtin_shufflevector(x, y, 0, 4, 2, 6), xy2 = __builtin_shufflevector(x, y, 1, 5, 3, 7);
       const Four zs = __builtin_shufflevector(z, s, 0, 4, 2, 6), zs2 = __builtin_shufflevector(z, s, 1, 5, 3, 7);
-      put(0, __builtin_shufflevector(xy, zs, 0, 1, 4, 5));
-      put(1, __builtin_shufflevector(xy2, zs2, 0, 1, 4, 5));
-      put(2, __builtin_shufflevector(xy, zs, 2, 3, 6, 7));
       put(3, __builtin_shufflevector(xy2, zs2, 2, 3, 6, 7));
+      put(2, __builtin_shufflevector(xy, zs, 2, 3, 6, 7));
+      put(1, __builtin_shufflevector(xy2, zs2, 0, 1, 4, 5));
+      put(0, __builtin_shufflevector(xy, zs, 0, 1, 4, 5));
     }
 #if defined(__AVX512F__)
     if constexpr (lanes<R> == 8) {
       const Eight x(q.v.x), y(q.v.y), z(q.v.z), s(q.s);
       const Eight xy = __builtin_shufflevector(x, y, 0, 8, 2, 10, 4, 12, 6, 14), xy2 = __builtin_shufflevector(x, y, 1, 9, 3, 11, 5, 13, 7, 15);
       const Eight zs = __builtin_shufflevector(z, s, 0, 8, 2, 10, 4, 12, 6, 14), zs2 = __builtin_shufflevector(z, s, 1, 9, 3, 11, 5, 13, 7, 15);
-      const auto put_two = [&](int k, Eight rows) {          // row k, then row k + 4
-        put(k, _mm512_castpd512_pd256(rows));
+      const auto put_two = [&](int k, Eight rows) {          // row k + 4, then row k
         put(k + 4, _mm512_extractf64x4_pd(rows, 1));
+        put(k, _mm512_castpd512_pd256(rows));
       };
-      put_two(0, __builtin_shufflevector(xy, zs, 0, 1, 8, 9, 4, 5, 12, 13));
-      put_two(1, __builtin_shufflevector(xy2, zs2, 0, 1, 8, 9, 4, 5, 12, 13));
-      put_two(2, __builtin_shufflevector(xy, zs, 2, 3, 10, 11, 6, 7, 14, 15));
       put_two(3, __builtin_shufflevector(xy2, zs2, 2, 3, 10, 11, 6, 7, 14, 15));
+      put_two(2, __builtin_shufflevector(xy, zs, 2, 3, 10, 11, 6, 7, 14, 15));
+      put_two(1, __builtin_shufflevector(xy2, zs2, 0, 1, 8, 9, 4, 5, 12, 13));
+      put_two(0, __builtin_shufflevector(xy, zs, 0, 1, 8, 9, 4, 5, 12, 13));
     }
 #endif
 #endif

@@ -74,7 +74,7 @@ struct Touch {
   Index contact;
   bool of_body;
   Vec3 normal;
-  double overlap, radius_eff, mass_eff, arm_a, arm_b;
+  double overlap, radius_eff, arm_a, arm_b;
   double velocity;               // u_n before the step
   const RowCoefficients* k;
 };
@@ -126,8 +126,8 @@ class Grouping {
 void write_rows(const Touch& t, const RowOptions& o, const SolverBody* bodies, const Grouping::Place& at) {
   auto& [g, source, lane] = at;
   const SolverBody &a = bodies[t.a], &b = bodies[t.b];
-  const double w_n = a.linear.s + b.linear.s;
-  const NormalRow row = normal_row(t.overlap, t.radius_eff, t.mass_eff, *t.k, o);
+  const double w_n = a.linear.s + b.linear.s, mass_eff = 1 / w_n;
+  const NormalRow row = normal_row(t.overlap, t.radius_eff, mass_eff, *t.k, o);
   const bool impact = is_impact(t.overlap, t.velocity, o);
   g.a[lane] = t.a, g.b[lane] = t.b;
   g.normal.x[lane] = t.normal.x, g.normal.y[lane] = t.normal.y, g.normal.z[lane] = t.normal.z;
@@ -135,7 +135,7 @@ void write_rows(const Touch& t, const RowOptions& o, const SolverBody* bodies, c
   g.bias[lane] = impact_bias(t.overlap, t.radius_eff, t.velocity, impact, *t.k);
   g.compliance[lane] = row.compliance;
   g.normal_step[lane] = 1 / (w_n + row.compliance);
-  g.free_step[lane] = 1 / w_n;
+  g.free_step[lane] = mass_eff;
   g.tangential_step[lane] = 1 / (w_n + t.arm_a * t.arm_a * a.angular.s + t.arm_b * t.arm_b * b.angular.s);
   g.rolling_step[lane] = 1 / (a.angular.s + b.angular.s);
   g.friction[lane] = t.k->friction;
@@ -155,9 +155,9 @@ constexpr double contact_slack = 1e-9;
 
 NormalRow normal_row(double overlap, double radius_eff, double mass_eff, const RowCoefficients& k, const RowOptions& o) {
   if (!(overlap > 0)) return {};
-  const double h = o.time_step, stiffness = k.hertz * std::sqrt(radius_eff) * std::sqrt(overlap);    // k sqrt(overlap)
+  const double h = o.time_step, stiffness = k.hertz * std::sqrt(radius_eff * overlap);    // k sqrt(overlap)
   const double dashpot = 4 / std::sqrt(5.0) * k.damping_ratio * std::sqrt(mass_eff / stiffness);
-  const double tau = std::max(o.damping_steps * h, dashpot), factor = 1 / (1 + 4 * tau / h);
+  const double tau = std::max(o.damping_steps * h, dashpot), factor = h / (h + 4 * tau);
   return {16.0 / 5.0 * factor / (h * h * stiffness), factor};
 }
 
@@ -268,7 +268,7 @@ void ConstraintSetup<Space>::operator()(Parallel parallel, Read<&Particles::id> 
           const double distance = norm(branch), gap = distance - radius[p] - radius[q];
           if (!(gap < widest_gap)) continue;
           const Vec3 dir = distance > 0 ? (1 / distance) * branch : Vec3{0, 0, 1};
-          add({p, q, c, false, dir, -gap, radius[p] * radius[q] / (radius[p] + radius[q]), mass[p] * mass[q] / (mass[p] + mass[q]),
+          add({p, q, c, false, dir, -gap, radius[p] * radius[q] / (radius[p] + radius[q]),
                radius[p] + 0.5 * gap, radius[q] + 0.5 * gap, dot(velocity[p] - velocity[q], dir),
                &coefficients[material[p] * materials + material[q]]});
         }
@@ -280,13 +280,16 @@ void ConstraintSetup<Space>::operator()(Parallel parallel, Read<&Particles::id> 
           const Vec3 point = position[p] - arm * dir;
           const auto wall = static_cast<Index>(n + c);
           state[wall] = {{body_velocity[w] + cross(body_spin[w], point - pose[w].position), 0}, {body_spin[w], 0}};
-          add({p, wall, c, true, dir, overlap[c], radius[p] / (1 + radius[p] * curvature[c]), mass[p], arm, 0,
+          add({p, wall, c, true, dir, overlap[c], radius[p] / (1 + radius[p] * curvature[c]), arm, 0,
                dot(velocity[p] - state[wall].linear.v, dir), &coefficients[material[p] * materials + wall_material[g]]});
         }
       }
       grouping.close();
       for (ContactGroup& g : groups)
-        for (std::size_t l = std::size_t(g.count); l < ContactGroup::size; ++l) g.a[l] = g.a[0], g.b[l] = g.b[0];
+        for (std::size_t l = std::size_t(g.count); l < ContactGroup::size; ++l) {
+          const std::size_t first_of_pack = l & (l - 1);     // 4, 6 and 7 of 8: 0, 4, 6
+          g.a[l] = g.a[first_of_pack], g.b[l] = g.b[first_of_pack];
+        }
       if (options.impacts) {
         BlockNeighbours& beside = blocks->neighbours.data[k];
         beside.fill(no_index);

@@ -20,6 +20,12 @@ struct System {
   std::span<const InverseInertia> inertia;
 };
 
+// One sweep of a block.
+void sweep_block(SweepGroups sweep, const SweepOptions& o, const System& of, std::size_t b) {
+  const auto next = b + 1 < of.groups.size() ? std::span<const ContactGroup>(of.groups[b + 1]) : std::span<const ContactGroup>{};
+  sweep(of.groups[b], next, of.bodies.data(), o.separation_speed, of.change[b]);
+}
+
 SweepChange sum(std::span<const SweepChange> change, SweepChange all) {
   for (const SweepChange& c : change) all.change += c.change, all.total += c.total;
   return all;
@@ -35,7 +41,7 @@ Outcome solve(const Parallel& parallel, const SweepOptions& o, const System& of)
     ++out.sweeps;
     const bool last = out.sweeps == o.most, measured = last || (o.tolerance > 0 && out.sweeps % between_measures == 0);
     const SweepGroups sweep = measured ? o.measured_sweep : o.sweep;
-    by_colour(parallel, first_of_colour, out.sweeps, [&](std::size_t b) { sweep(groups[b].data(), groups[b].size(), bodies.data(), o.separation_speed, change[b]); });
+    by_colour(parallel, first_of_colour, out.sweeps, [&](std::size_t b) { sweep_block(sweep, o, of, b); });
     SweepChange of_hubs;
     sweep_hubs(hubs, bodies, inertia, o.kind, o.separation_speed, of_hubs);
     if (!measured) continue;
@@ -59,7 +65,7 @@ Outcome solve_near(std::span<const Index> impacts, std::span<const BlockNeighbou
     ++out.sweeps;
     by_colour(parallel, first_of_colour, out.sweeps, [&](std::size_t b) {
       if (!awake[b].exchange(0, std::memory_order_relaxed)) return;
-      o.measured_sweep(groups[b].data(), groups[b].size(), bodies.data(), o.separation_speed, change[b]);
+      sweep_block(o.measured_sweep, o, of, b);
       if (change[b].change <= enough) return;
       awake[b].store(1, std::memory_order_relaxed);
       for (const Index n : neighbours[b])

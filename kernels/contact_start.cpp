@@ -1,6 +1,7 @@
 #include "kernels/contact_start.h"
 #include <algorithm>
 #include "kernels/contact_blocks.h"
+#include "kernels/contact_fetch.h"
 #include "kernels/contact_law.h"
 
 namespace skred {
@@ -13,15 +14,22 @@ void ContactStart<rolling>::operator()(Parallel parallel, Read<&Particles::id> i
                                        Update<&HubContacts::contact> hubs, Read<&SolverBodies::inverse_inertia> inertia, Update<&SolverBodies::state> bodies,
                                        Read<&Solver::residual> residual) const {
   const double h = time_step;
-  const auto for_each_contact = [&](std::size_t b, const auto& visit) {
-    for (std::size_t k = 0; k < groups[b].size(); ++k)
-      for (std::size_t l = 0; l < std::size_t(groups[b][k].count); ++l) visit(groups[b][k], sources[b][k], l);
+  const auto for_each_contact = [&](std::size_t b, const auto& fetch_last, const auto& visit) {
+    const auto& of_block = groups[b];
+    for (std::size_t k = 0; k < of_block.size(); ++k) {
+      if (k + 3 < of_block.size()) fetch(of_block[k + 3]), fetch(sources[b][k + 3]);
+      if (k + 2 < of_block.size()) {
+        fetch_bodies(of_block[k + 2], bodies.data());
+        for (const Index c : sources[b][k + 2].contact) fetch_last(c);
+      }
+      for (std::size_t l = 0; l < std::size_t(of_block[k].count); ++l) visit(groups[b][k], sources[b][k], l);
+    }
   };
 
   // The right-hand sides, from the velocities before gravity.
   parallel(groups.size(), blocks_at_a_time, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b)
-      for_each_contact(b, [&](ContactGroup& g, const GroupSource& s, std::size_t l) {
+      for_each_contact(b, [](Index) {}, [&](ContactGroup& g, const GroupSource& s, std::size_t l) {
         const double u_n = dot(bodies[g.a[l]].linear.v - bodies[g.b[l]].linear.v, at(g.normal, l)), factor = s.velocity_factor[l];
         g.bias[l] = s.overlap[l] > 0 ? 16.0 / 5.0 * (factor / h) * s.overlap[l] + factor * u_n : (s.overlap[l] - s.allowance[l]) / h;
       });
@@ -36,9 +44,13 @@ void ContactStart<rolling>::operator()(Parallel parallel, Read<&Particles::id> i
 
   constexpr double trusted = 0.05;                           // residual of the last step up to which its impulses are taken whole
   const double share = residual[0] <= trusted ? 1 : 0.5;
+  const auto fetch_impulses = [&](Index c) {                 // of pairs; a few are at walls
+    __builtin_prefetch(impulse.data() + c);
+    if constexpr (rolling) __builtin_prefetch(rolling_impulse.data() + c);
+  };
   if (warm_start)
     by_colour(parallel, first_of_colour, 0, [&](std::size_t b) {
-      for_each_contact(b, [&](ContactGroup& g, const GroupSource& s, std::size_t l) {
+      for_each_contact(b, fetch_impulses, [&](ContactGroup& g, const GroupSource& s, std::size_t l) {
         if (s.impact[l]) return;
         const Index c = s.contact[l];
         const Vec3 n = at(g.normal, l), before = share * (s.of_body[l] ? body_impulse[c] : impulse[c]);

@@ -1,5 +1,6 @@
 // kernels/contact_sweep.h - one sweep over the contacts of a block, for the rows that a scene calls for and one set of vector instructions.
 #pragma once
+#include <span>
 #include "engine/contact_rows.h"
 #include "engine/vector_path.h"
 
@@ -13,11 +14,12 @@ struct SweepKind {
   bool measured = false;            // tells the change
 };
 
-// One sweep of projected Gauss-Seidel over the groups of a block, in their order (kernels/contact_sweep_loop.h).
-using SweepGroups = void (*)(ContactGroup* first, std::size_t count, SolverBody* bodies, double separation_speed, SweepChange& change);
+// One sweep of projected Gauss-Seidel over the groups of a block, in their order (kernels/contact_sweep_loop.h). `next` are those that
+// the thread will probably sweep after them.
+using SweepGroups = void (*)(std::span<ContactGroup> groups, std::span<const ContactGroup> next, SolverBody* bodies, double separation_speed, SweepChange& change);
 
 template <SweepKind kind> struct ContactSweep {
-  template <VectorPath path> static void run(ContactGroup*, std::size_t, SolverBody*, double, SweepChange&);
+  template <VectorPath path> static void run(std::span<ContactGroup>, std::span<const ContactGroup>, SolverBody*, double, SweepChange&);
 };
 
 template <SweepKind kind> SweepGroups contact_sweep(VectorPath path) {

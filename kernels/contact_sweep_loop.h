@@ -2,6 +2,7 @@
 // the velocities follow at once [Jean 1999; Jourdan, Alart, Jean 1998; row by row exact for spheres].
 #pragma once
 #include "engine/pack_quads.h"
+#include "kernels/contact_fetch.h"
 #include "kernels/contact_law.h"
 #include "kernels/contact_sweep.h"
 
@@ -30,7 +31,6 @@ struct LaneSums {
 template <class R, SweepKind kind> [[gnu::always_inline]] inline void sweep_lanes(ContactGroup& g, int k, SolverBody* bodies, R separation_speed, LaneSums& sums) {
   using std::abs;
   using V = Vec3T<R>;
-  const int count = g.count - k;
   const auto angular_a = [&](int l) { return &bodies[g.a[std::size_t(k + l)]].angular; };
   const auto angular_b = [&](int l) { return &bodies[g.b[std::size_t(k + l)]].angular; };
   const auto linear_a = [&](int l) { return &bodies[g.a[std::size_t(k + l)]].linear; };
@@ -81,11 +81,11 @@ template <class R, SweepKind kind> [[gnu::always_inline]] inline void sweep_lane
     wb.v -= wb.s * d;
   }
 
-  store_quads<R>(va, count, linear_a);
-  store_quads<R>(vb, count, linear_b);
+  store_quads<R>(va, linear_a);
+  store_quads<R>(vb, linear_b);
   if constexpr (rotates) {
-    store_quads<R>(wa, count, angular_a);
-    store_quads<R>(wb, count, angular_b);
+    store_quads<R>(wa, angular_a);
+    store_quads<R>(wb, angular_b);
   }
   if constexpr (kind.measured) {
     put_lanes(lanes_at<R>(sums.change, k) + change, sums.change, k);
@@ -94,18 +94,25 @@ template <class R, SweepKind kind> [[gnu::always_inline]] inline void sweep_lane
 }
 
 template <class R, SweepKind kind>
-[[gnu::flatten]] void sweep_groups(ContactGroup* groups, std::size_t count, SolverBody* bodies, double separation_speed, SweepChange& out) {
+[[gnu::flatten]] void sweep_groups(std::span<ContactGroup> groups, std::span<const ContactGroup> next, SolverBody* bodies, double separation_speed,
+                                   SweepChange& out) {
+  const auto ahead = [&](std::size_t k) -> const ContactGroup* {
+    return k < groups.size() ? &groups[k] : k - groups.size() < next.size() ? &next[k - groups.size()] : nullptr;
+  };
   alignas(64) LaneSums sums;
-  for (ContactGroup* g = groups; g < groups + count; ++g)
-    for (int k = 0; k < g->count; k += lanes<R>) sweep_lanes<R, kind>(*g, k, bodies, R(separation_speed), sums);
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    if (const ContactGroup* g = ahead(k + 3)) fetch(*g);
+    if (const ContactGroup* g = ahead(k + 2)) fetch_bodies(*g, bodies);
+    for (int l = 0; l < groups[k].count; l += lanes<R>) sweep_lanes<R, kind>(groups[k], l, bodies, R(separation_speed), sums);
+  }
   out = {};
   if constexpr (kind.measured)
     for (std::size_t l = 0; l < ContactGroup::size; ++l) out.change += sums.change[l], out.total += sums.total[l];
 }
 
 template <SweepKind kind> template <VectorPath path>
-void ContactSweep<kind>::run(ContactGroup* groups, std::size_t count, SolverBody* bodies, double separation_speed, SweepChange& out) {
-  sweep_groups<NumberOf<path>, kind>(groups, count, bodies, separation_speed, out);
+void ContactSweep<kind>::run(std::span<ContactGroup> groups, std::span<const ContactGroup> next, SolverBody* bodies, double separation_speed, SweepChange& out) {
+  sweep_groups<NumberOf<path>, kind>(groups, next, bodies, separation_speed, out);
 }
 
 }  // namespace skred

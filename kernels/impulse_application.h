@@ -26,8 +26,9 @@ template <bool rolling> struct ImpulseApplication {
         spin[p] = bodies[p].angular.v;
       }
     });
-    const auto clear = [](auto& column) {
-      if constexpr (requires { column.size(); }) std::fill(column.begin(), column.end(), Vec3{});
+    const auto clear = [&](auto& column) {
+      if constexpr (requires { column.size(); })
+        parallel(column.size(), 8192, [&](std::size_t first, std::size_t last) { std::fill(column.begin() + first, column.begin() + last, Vec3{}); });
     };
     clear(pair_force), clear(impulse), clear(rolling_impulse);
     clear(body_force), clear(body_impulse), clear(body_rolling_impulse), clear(body_rolling_torque);
