@@ -1,53 +1,10 @@
 // Nonsmooth DEM against closed forms: single contacts, columns, impacts, and the rate of the solver.
-#include <gtest/gtest.h>
-#include "tests/physics/lab.h"
+#include "tests/physics/nonsmooth_lab.h"
 
 namespace skred {
 namespace {
 
 using namespace lab;
-
-constexpr double R = pellet_radius;
-const double g = 9.81, m = sphere_mass(R);
-
-struct NonsmoothLab : Lab {
-  NonsmoothLab(double restitution, double friction, double rolling_friction, double step = 1e-3) : Lab(restitution, friction, rolling_friction) {
-    model.method = Method::ndem;
-    model.time_step = step;
-    model.solver.tolerance = 1e-12;
-    model.solver.iterations = 20000;
-  }
-  void under_gravity(Vec3 direction = {0, 0, -1}) { model.gravity = g * direction; }
-  void floor() { body(PlaneShape{}); }
-};
-
-void run(Simulation& s, double time) {
-  s.start();
-  while (s.time() < time - 1e-9) s.step(Execution::list);
-}
-
-double hertz(const Lab& lab, double radius_eff) { return 4.0 / 3.0 * lab.model.pairs.values[0].young_eff * std::sqrt(radius_eff); }
-
-std::vector<double> pair_forces(const Simulation& s) {         // by id of the lower particle: a column
-  std::vector<double> out;
-  const Contacts& c = std::get<Contacts>(s.world());
-  const auto& first = std::get<Incidence>(s.world()).first.data;
-  for (const Index r : rows_by_id(std::get<Particles>(s.world())))
-    for (Index k = first[r]; k < first[r + 1]; ++k) out.push_back(norm(c.force.data[k]));
-  return out;
-}
-
-// Heights at which a column of n equal spheres on a floor is at rest.
-std::vector<double> column_at_rest(const Lab& lab, int n) {
-  std::vector<double> z;
-  double top = 0;
-  for (int k = 0; k < n; ++k) {
-    const double overlap = std::pow((n - k) * m * g / hertz(lab, k == 0 ? R : R / 2), 2.0 / 3.0);
-    z.push_back(top + (k == 0 ? R : 2 * R) - overlap);
-    top = z.back();
-  }
-  return z;
-}
 
 TEST(Nonsmooth, ColumnRestsAtTheOverlapsOfHertz) {             // T2
   for (const double h : {1e-4, 1e-3, 4e-3}) {
