@@ -17,10 +17,12 @@ namespace skred {
 namespace stdx = std::experimental;
 
 // The number type of a path, in a translation unit that is compiled for it.
-template <VectorPath path> struct NumberOf { using type = stdx::native_simd<double>; };
-template <> struct NumberOf<VectorPath::scalar> { using type = double; };
+template <VectorPath path> using NumberOf = std::conditional_t<path == VectorPath::scalar, double, stdx::native_simd<double>>;
 
 template <class R> inline constexpr int lanes = stdx::is_simd_v<R> ? int(sizeof(R) / sizeof(double)) : 1;
+
+inline bool is_set(bool mask, int) { return mask; }
+template <class Abi> bool is_set(const stdx::simd_mask<double, Abi>& mask, int lane) { return mask[lane]; }
 
 // Any rows of a table, one per lane; the first `count` count.
 template <class R> struct AnyRows {
@@ -59,15 +61,18 @@ template <class R, class Rows, class Value> R gather(const Rows& at, const Value
   else return R([&](auto k) { return value(at[k]); });
 }
 template <class R, class Rows> R load(const double* column, const Rows& at) {
-  return gather<R>(at, [&](std::size_t row) { return column[row]; });
+  if constexpr (lanes<R> > 1 && std::is_same_v<Rows, FullRange<R>>) return R(column + at[0], stdx::element_aligned);
+  else return gather<R>(at, [&](std::size_t row) { return column[row]; });
 }
 
-// Vectors of these rows. Reads one number beyond each, for which a Buffer keeps room.
-template <class R, class Rows> Vec3T<R> load(const Vec3* column, const Rows& at) {
+// Vectors of these rows: x, y, z of each. Reads one number beyond each, for which a Buffer keeps room.
+template <class R, class V, class Rows> requires requires(V v) { v.x; }
+Vec3T<R> load(const V* column, const Rows& at) {
   if constexpr (lanes<R> == 1) {
-    return column[at[0]];
+    const V& v = column[at[0]];
+    return {v.x, v.y, v.z};
   } else if constexpr (lanes<R> == 2) {
-    const Vec3 &a = column[at[0]], &b = column[at[1]];
+    const V &a = column[at[0]], &b = column[at[1]];
     return {R(Two{a.x, b.x}), R(Two{a.y, b.y}), R(Two{a.z, b.z})};
   } else {
 #if defined(__AVX__)
@@ -80,7 +85,13 @@ template <class R, class Rows> Vec3T<R> load(const Vec3* column, const Rows& at)
               R(__builtin_shufflevector(ab, cd, 2, 3, 6, 7))};
     }
 #if defined(__AVX512F__)
-    if constexpr (lanes<R> == 8) {
+    if constexpr (lanes<R> == 8 && std::is_same_v<V, Vec3> && std::is_same_v<Rows, FullRange<R>>) {
+      const auto eight = [&](int k) -> Eight { return _mm512_loadu_pd(&column[at[0]].x + 8 * k); };
+      const Eight a = eight(0), b = eight(1), c = eight(2);  // x y z x y z x y, z x y z x y z x, y z x y z x y z
+      return {R(__builtin_shufflevector(__builtin_shufflevector(a, b, 0, 3, 6, 9, 12, 15, 0, 0), c, 0, 1, 2, 3, 4, 5, 10, 13)),
+              R(__builtin_shufflevector(__builtin_shufflevector(a, b, 1, 4, 7, 10, 13, 0, 0, 0), c, 0, 1, 2, 3, 4, 8, 11, 14)),
+              R(__builtin_shufflevector(__builtin_shufflevector(a, b, 2, 5, 8, 11, 14, 0, 0, 0), c, 0, 1, 2, 3, 4, 9, 12, 15))};
+    } else if constexpr (lanes<R> == 8) {
       const auto eight = [&](int k, int l) -> Eight { return _mm512_insertf64x4(_mm512_castpd256_pd512(four(k)), four(l), 1); };
       const Eight a = eight(0, 2), b = eight(1, 3), c = eight(4, 6), d = eight(5, 7);
       const Eight ab = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14), cd = __builtin_shufflevector(c, d, 0, 8, 2, 10, 4, 12, 6, 14);
@@ -125,6 +136,7 @@ template <class R, class Rows> void store(const Vec3T<R>& v, Vec3* column, const
 }
 template <class R, class Rows> void store(const R& v, double* column, const Rows& at) {
   if constexpr (lanes<R> == 1) column[at[0]] = v;
+  else if constexpr (std::is_same_v<Rows, FullRange<R>>) v.copy_to(column + at[0], stdx::element_aligned);
   else
     for (int k = 0; k < at.count; ++k) column[at[k]] = v[k];
 }

@@ -7,7 +7,7 @@ namespace skred {
 // Free space.
 struct OpenSpace {
   template <class R> Vec3T<R> shortest(const Vec3T<R>& d) const { return d; }
-  Vec3 wrap(const Vec3& x) const { return x; }
+  template <class R> Vec3T<R> wrap(const Vec3T<R>& x) const { return x; }
 };
 
 // A box with one or more periodic directions. Positions lie in [min, min + length) along them; a direction that is not
@@ -18,17 +18,19 @@ struct PeriodicSpace {
   template <class R> Vec3T<R> shortest(const Vec3T<R>& d) const {
     return {shortest(d.x, R(length.x)), shortest(d.y, R(length.y)), shortest(d.z, R(length.z))};
   }
-  Vec3 wrap(const Vec3& x) const { return {wrap(x.x, min.x, length.x), wrap(x.y, min.y, length.y), wrap(x.z, min.z, length.z)}; }
+  template <class R> Vec3T<R> wrap(const Vec3T<R>& x) const {
+    return {wrap(x.x, R(min.x), R(length.x)), wrap(x.y, R(min.y), R(length.y)), wrap(x.z, R(min.z), R(length.z))};
+  }
 
  private:
   template <class R> static R shortest(R d, R box) {       // |d| < box, so one shift is enough
     const R half = 0.5 * box;
     return select(d > half, d - box, select(d < -half, d + box, d));
   }
-  static double wrap(double x, double lo, double box) {
-    if (x < lo) x += box;
-    if (x >= lo + box) x -= box;
-    return x < lo ? lo : x;                                // rounding may leave x a hair below
+  template <class R> static R wrap(R x, R lo, R box) {
+    x = select(x < lo, x + box, x);
+    x = select(x >= lo + box, x - box, x);
+    return select(x < lo, lo, x);                          // rounding may leave x a hair below
   }
 };
 

@@ -17,7 +17,8 @@ template <class Mask, class Pack> requires(!std::is_same_v<Mask, bool>)
   return r;
 }
 
-constexpr bool none_of(bool condition) { return !condition; }   // of packs: std::experimental::none_of
+constexpr bool none_of(bool condition) { return !condition; }   // of packs: std::experimental::none_of, all_of
+constexpr bool all_of(bool condition) { return condition; }
 
 template <class R> struct Vec3T {
   R x{}, y{}, z{};

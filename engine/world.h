@@ -279,13 +279,15 @@ struct Solver {
   Column<std::int64_t> impacts{"impacts", "1", {0}};               // of them turned round by the impact stage
   Column<std::int64_t> sweeps{"sweeps", "1", {0}};                 // of the contact stage in this step ...
   Column<double>       residual{"residual", "1", {0}};             // ... and what its last one still changed, of all impulses
+  Column<double>       error_left{"error_left", "1", {0}};         // part of a slow error that its sweeps leave
   Column<std::int64_t> impact_sweeps{"impact_sweeps", "1", {0}};
   Column<double>       impact_residual{"impact_residual", "1", {0}};
-  Column<std::int64_t> unsolved{"steps_unsolved", "1", {0}};       // steps so far that did not reach the tolerance
+  Column<std::int64_t> unsolved{"steps_unsolved", "1", {0}};       // steps so far whose contact stage did not reach the tolerance ...
+  Column<std::int64_t> impacts_unsolved{"impacts_unsolved", "1", {0}};   // ... and whose impact stage did not
   std::size_t rows() const { return 1; }
   static constexpr auto columns() {
-    return std::tuple{&Solver::contacts, &Solver::impacts, &Solver::sweeps, &Solver::residual, &Solver::impact_sweeps,
-                      &Solver::impact_residual, &Solver::unsolved};
+    return std::tuple{&Solver::contacts, &Solver::impacts, &Solver::sweeps, &Solver::residual, &Solver::error_left, &Solver::impact_sweeps,
+                      &Solver::impact_residual, &Solver::unsolved, &Solver::impacts_unsolved};
   }
 };
 

@@ -1,5 +1,6 @@
 #include "kernels/broadphase.h"
 #include <algorithm>
+#include <utility>
 #include "kernels/cell_grid.h"
 
 namespace skred {
@@ -28,8 +29,8 @@ void sort_into_cells(const Parallel& parallel, const CellLayout& layout, std::sp
   const std::size_t n = position.size();
   resize_for_overwrite(grid.cell.data, n);
   resize_for_overwrite(grid.order.data, n);
-  resize_for_overwrite(grid.position.data, n);
-  resize_for_overwrite(grid.reach.data, n);
+  resize_for_overwrite(grid.position.data, n + Surroundings<OpenSpace>::room);
+  resize_for_overwrite(grid.reach.data, n + Surroundings<OpenSpace>::room);
   parallel(n, 8192, [&](std::size_t first, std::size_t last) {
     for (std::size_t p = first; p < last; ++p) grid.cell.data[p] = static_cast<Index>(layout.cell(position[p]));
   });
@@ -76,8 +77,7 @@ void Broadphase<Space>::operator()(Parallel parallel, Read<&Search::due> due, Re
   sort_into_cells(parallel, layout, position, radius, margin, *grid.table);
   const auto& start = grid->start.data;
   const auto& order = grid->order.data;
-  const auto& cell_position = grid->position.data;
-  const auto& reach = grid->reach.data;
+  const Surroundings<Space> surroundings{space, grid->position.data.data(), grid->reach.data.data()};
 
   constexpr std::size_t chunk = 1024;
   std::vector<Found> found((n + chunk - 1) / chunk);
@@ -95,16 +95,13 @@ void Broadphase<Space>::operator()(Parallel parallel, Read<&Search::due> due, Re
     for (std::size_t p = begin; p < end; ++p) {
       const Vec3 x = position[p];
       const double mine = radius[p] + margin[p];
-      std::size_t count = 0;
+      std::array<Places, 27> around;
+      Places* around_end = around.data();
+      std::size_t candidates = 0;
       const auto look = [&](std::size_t first_cell, std::size_t last_cell) {
-        const Index from = start[first_cell], to = start[last_cell + 1];
-        if (near.size() < count + (to - from)) near.resize(2 * (count + (to - from)));
-        for (Index s = from; s < to; ++s) {                  // no branch: which of them are near is a matter of chance
-          const Vec3 d = space.shortest(cell_position[s] - x);
-          const double touch = mine + reach[s];
-          near[count] = s;
-          count += dot(d, d) < touch * touch;
-        }
+        *around_end = {start[first_cell], start[last_cell + 1]};
+        candidates += around_end->last - around_end->first;
+        ++around_end;
       };
       std::array<int, 3> xs, ys, zs;
       const int nx = layout.axis[0].neighbours(layout.axis[0].cell(x.x), xs);
@@ -118,6 +115,8 @@ void Broadphase<Space>::operator()(Parallel parallel, Read<&Search::due> due, Re
             for (int a = 0; a < nx; ++a) look(layout.index(xs[a], ys[b], zs[c]), layout.index(xs[a], ys[b], zs[c]));
           }
         }
+      if (near.size() <= candidates) near.resize(2 * candidates + 1);
+      const std::size_t count = loop(surroundings, x, mine, around.data(), around_end, near.data());
       if (lower.size() < count) lower.resize(2 * count), higher.resize(2 * count);
       Key *l = lower.data(), *h = higher.data();
       for (std::size_t s = 0; s < count; ++s) {
@@ -130,6 +129,10 @@ void Broadphase<Space>::operator()(Parallel parallel, Read<&Search::due> due, Re
       f.higher_end.push_back(append(higher, h, f.higher));
     }
   });
+
+  // 40 bytes per particle that only a search needs.
+  const auto release = [](auto& column) { std::exchange(column.data, {}); };
+  release(grid->cell), release(grid->order), release(grid->position), release(grid->reach);
 
   std::vector<Index> offset(found.size() + 1, 0), lower_offset(found.size() + 1, 0);
   for (std::size_t k = 0; k < found.size(); ++k) {

@@ -137,6 +137,8 @@ void BroadphaseBody::operator()(Parallel parallel, Read<&Search::due> due, Read<
 
 namespace {
 
+constexpr double seen_late = 0.02;                           // of a radius
+
 // Gives the places where a sphere touches a mesh to its slots: each, the deepest first, to the free slot whose last normal is
 // nearest to its own, else to the first slot that was not in use (or, where all were, to one whose place has just ended).
 void assign_slots(const MeshContacts& touched, const Pose& pose, double* overlap, Vec3* normal) {
@@ -148,6 +150,7 @@ void assign_slots(const MeshContacts& touched, const Pose& pose, double* overlap
     old_overlap[s] = overlap[s];
     old_normal[s] = normal[s];
     overlap[s] = 0;
+    normal[s] = {};
   }
   std::array<std::size_t, max_mesh_contacts> slot;
   slot.fill(max_mesh_contacts);
@@ -174,14 +177,14 @@ void assign_slots(const MeshContacts& touched, const Pose& pose, double* overlap
 
 }  // namespace
 
-void ContactGeometryBody::operator()(Parallel parallel, Read<&BodyContacts::particle> particle, Read<&BodyContacts::geometry> geometry,
-                                     Read<&BodyContacts::slot> slot, Read<&BodyContacts::first_triangle> first_triangle,
-                                     Read<&BodyContacts::triangle_count> triangle_count, Read<&Triangles::triangle> triangle,
-                                     Read<&Particles::position> position, Read<&Particles::radius> radius,
-                                     Read<&Geometries::body> body, Read<&Geometries::shape> shape,
-                                     Read<&Geometries::local> local, Read<&Bodies::pose> pose,
-                                     Update<&BodyContacts::overlap> overlap, Update<&BodyContacts::normal> normal,
-                                     Update<&BodyContacts::curvature> curvature) const {
+template <bool ahead>
+void ContactGeometryBody<ahead>::operator()(Parallel parallel, Read<&BodyContacts::particle> particle,
+    Read<&BodyContacts::geometry> geometry, Read<&BodyContacts::slot> slot, Read<&BodyContacts::first_triangle> first_triangle,
+    Read<&BodyContacts::triangle_count> triangle_count, Read<&Triangles::triangle> triangle, Read<&Particles::position> position,
+    If<ahead, Read<&Particles::velocity>> velocity, Read<&Particles::radius> radius, Read<&Geometries::body> body,
+    Read<&Geometries::shape> shape, Read<&Geometries::local> local, Read<&Bodies::pose> pose,
+    If<ahead, Read<&Bodies::velocity>> body_velocity, If<ahead, Read<&Bodies::angular_velocity>> body_spin,
+    Update<&BodyContacts::overlap> overlap, Update<&BodyContacts::normal> normal, Update<&BodyContacts::curvature> curvature) const {
   std::vector<Pose> world(shape.size());
   for (std::size_t g = 0; g < shape.size(); ++g) world[g] = pose[body[g]] * local[g];
   parallel(geometry.size(), 1024, [&](std::size_t begin, std::size_t end) {
@@ -190,7 +193,17 @@ void ContactGeometryBody::operator()(Parallel parallel, Read<&BodyContacts::part
       const Index g = geometry[c], p = particle[c];
       const Vec3 x = to_local(world[g], position[p]);
       if (const Mesh* mesh = mesh_of(shape[g])) {
-        const MeshContacts touched = mesh->touch(x, radius[p], triangle.subspan(first_triangle[c], triangle_count[c]));
+        const auto near = triangle.subspan(first_triangle[c], triangle_count[c]);
+        MeshContacts touched = mesh->touch(x, radius[p], near);
+        if constexpr (ahead) {
+          const Index b = body[g];
+          const Vec3 v = velocity[p] - body_velocity[b] - cross(body_spin[b], position[p] - pose[b].position);
+          const double reach = time_step * norm(v) + fall;
+          if (reach > seen_late * radius[p]) {               // else it is soon enough to see the wall when it is touched
+            touched = mesh->touch(x, radius[p] + reach, near);
+            for (std::size_t k = 0; k < touched.count; ++k) touched.at[k].overlap -= reach;
+          }
+        }
         assign_slots(touched, world[g], &overlap[c], &normal[c]);
         continue;
       }
@@ -205,5 +218,8 @@ void ContactGeometryBody::operator()(Parallel parallel, Read<&BodyContacts::part
     }
   });
 }
+
+template struct ContactGeometryBody<false>;
+template struct ContactGeometryBody<true>;
 
 }  // namespace skred

@@ -37,15 +37,13 @@ double surface_moved(const Pose& now, const Pose& then, double lever) {
 
 template <class Space>
 void CheckMotion<Space>::operator()(Parallel parallel, Read<&Particles::id> id, Read<&Particles::position> position,
-                                    Read<&Particles::velocity> velocity, Read<&Particles::radius> radius,
-                                    Update<&Particles::searched> searched, Update<&Particles::search_margin> search_margin,
-                                    Update<&Particles::listed> listed, Update<&Particles::list_margin> list_margin,
-                                    Read<&Bodies::motion> motion, Read<&Bodies::pose> pose, Read<&Bodies::velocity> wall_velocity,
-                                    Read<&Bodies::angular_velocity> wall_spin, Read<&Bodies::searched> pose_searched,
-                                    Read<&Geometries::body> body, Read<&Geometries::shape> shape, Read<&Geometries::local> local,
-                                    Update<&Search::due> due, Write<&Search::list_due> list_due, Update<&Search::count> count,
-                                    Update<&Search::listings> listings, Update<&Search::reach> reach, Write<&Search::trouble> trouble,
-                                    Write<&Search::culprit> culprit, Write<&Search::outside> outside) const {
+    Read<&Particles::velocity> velocity, Read<&Particles::radius> radius, Update<&Particles::searched> searched,
+    Update<&Particles::search_margin> search_margin, Update<&Particles::listed> listed, Update<&Particles::list_margin> list_margin,
+    Read<&Bodies::motion> motion, Read<&Bodies::pose> pose, Read<&Bodies::velocity> wall_velocity,
+    Read<&Bodies::angular_velocity> wall_spin, Read<&Bodies::searched> pose_searched, Read<&Geometries::body> body,
+    Read<&Geometries::shape> shape, Read<&Geometries::local> local, Update<&Search::due> due, Write<&Search::list_due> list_due,
+    Update<&Search::count> count, Update<&Search::listings> listings, Update<&Search::reach> reach, Write<&Search::trouble> trouble,
+    Write<&Search::culprit> culprit, Write<&Search::outside> outside) const {
   constexpr std::size_t chunk = 1024;
   const std::size_t n = position.size(), chunks = (n + chunk - 1) / chunk;
   const bool first = count[0] == 0;                          // nothing was listed yet

@@ -37,11 +37,11 @@ template <class Space> struct CheckMotion {
   bool stop_outside;             // a particle outside is trouble
   StepAhead ahead;
 
-  void operator()(Parallel parallel, Read<&Particles::id> id, Read<&Particles::position> position,
-                  Read<&Particles::velocity> velocity, Read<&Particles::radius> radius, Update<&Particles::searched> searched,
-                  Update<&Particles::search_margin> search_margin, Update<&Particles::listed> listed,
-                  Update<&Particles::list_margin> list_margin, Read<&Bodies::motion> motion, Read<&Bodies::pose> pose,
-                  Read<&Bodies::velocity> wall_velocity, Read<&Bodies::angular_velocity> wall_spin, Read<&Bodies::searched> pose_searched, Read<&Geometries::body> body, Read<&Geometries::shape> shape,
+  void operator()(Parallel parallel, Read<&Particles::id> id, Read<&Particles::position> position, Read<&Particles::velocity> velocity,
+                  Read<&Particles::radius> radius, Update<&Particles::searched> searched, Update<&Particles::search_margin> search_margin,
+                  Update<&Particles::listed> listed, Update<&Particles::list_margin> list_margin, Read<&Bodies::motion> motion,
+                  Read<&Bodies::pose> pose, Read<&Bodies::velocity> wall_velocity, Read<&Bodies::angular_velocity> wall_spin,
+                  Read<&Bodies::searched> pose_searched, Read<&Geometries::body> body, Read<&Geometries::shape> shape,
                   Read<&Geometries::local> local, Update<&Search::due> due, Write<&Search::list_due> list_due,
                   Update<&Search::count> count, Update<&Search::listings> listings, Update<&Search::reach> reach,
                   Write<&Search::trouble> trouble, Write<&Search::culprit> culprit, Write<&Search::outside> outside) const;

@@ -128,7 +128,7 @@ void write_rows(const Touch& t, const RowOptions& o, const SolverBody* bodies, c
   const SolverBody &a = bodies[t.a], &b = bodies[t.b];
   const double w_n = a.linear.s + b.linear.s, mass_eff = 1 / w_n;
   const NormalRow row = normal_row(t.overlap, t.radius_eff, mass_eff, *t.k, o);
-  const bool impact = is_impact(t.overlap, t.velocity, o);
+  const bool impact = is_impact(t.overlap, t.velocity, *t.k, o);
   g.a[lane] = t.a, g.b[lane] = t.b;
   g.normal.x[lane] = t.normal.x, g.normal.y[lane] = t.normal.y, g.normal.z[lane] = t.normal.z;
   g.arm_a[lane] = t.arm_a, g.arm_b[lane] = t.arm_b;
@@ -144,7 +144,7 @@ void write_rows(const Touch& t, const RowOptions& o, const SolverBody* bodies, c
   source.of_body[lane] = t.of_body;
   source.impact[lane] = impact;
   source.overlap[lane] = t.overlap;
-  source.allowance[lane] = gap_allowance(t.radius_eff);
+  source.allowance[lane] = gap_allowance(t.radius_eff, mass_eff, t.velocity, *t.k, o);
   source.velocity_factor[lane] = row.velocity_factor;
 }
 
@@ -161,8 +161,8 @@ NormalRow normal_row(double overlap, double radius_eff, double mass_eff, const R
   return {16.0 / 5.0 * factor / (h * h * stiffness), factor};
 }
 
-bool is_impact(double overlap, double velocity, const RowOptions& o) {
-  return o.impacts && velocity < -o.impact_speed && -overlap <= -velocity * o.time_step;
+bool is_impact(double overlap, double velocity, const RowCoefficients& k, const RowOptions& o) {
+  return o.impacts && k.restitution > 0 && velocity < -o.impact_speed && -overlap <= -velocity * o.time_step;
 }
 
 double impact_bias(double overlap, double radius_eff, double velocity, bool impact, const RowCoefficients& k) {
@@ -175,8 +175,14 @@ bool may_close(double overlap, double radius_eff, double velocity, const RowOpti
   return overlap > 0 || -overlap <= std::max(0.0, -h * velocity) + h * h * norm(o.gravity) + contact_slack * radius_eff;
 }
 
-// Closed to nothing a contact would have no compliance, and stay rigid for ever.
-double gap_allowance(double radius_eff) { return 1e-3 * radius_eff; }
+// Closed to nothing a contact would have no compliance, and stay rigid for ever. A slow impact that lasts several steps, which is to say
+// that goes less far in one than Hertz's force lets it in all, delta^(5/2) = 5/4 m v^2 / k, is left to the rows that have it.
+double gap_allowance(double radius_eff, double mass_eff, double velocity, const RowCoefficients& k, const RowOptions& o) {
+  const double least = 1e-3 * radius_eff, way = -velocity * o.time_step;
+  if (!(way > least) || velocity < -o.impact_speed) return least;
+  const double energy = 1.25 * mass_eff * velocity * velocity / k.hertz;
+  return way * way * way * way * way * radius_eff <= energy * energy ? way : least;
+}
 
 template <class Space>
 void ConstraintSetup<Space>::operator()(Parallel parallel, Read<&Particles::id> id, Read<&Particles::position> position, Read<&Particles::velocity> velocity,

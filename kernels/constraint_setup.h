@@ -33,12 +33,12 @@ struct NormalRow { double compliance = 0, velocity_factor = 0; };
 NormalRow normal_row(double overlap, double radius_eff, double mass_eff, const RowCoefficients&, const RowOptions&);
 
 // Whether the impact stage turns a contact round: it closes faster than v_imp, and within the step.
-bool is_impact(double overlap, double velocity, const RowOptions&);
+bool is_impact(double overlap, double velocity, const RowCoefficients&, const RowOptions&);
 // The velocity that it must leave with in the impact stage; a gap that is no impact takes no part.
 double impact_bias(double overlap, double radius_eff, double velocity, bool impact, const RowCoefficients&);
 // A gap has rows if it can close within the step: by itself, or because gravity presses from behind.
 bool may_close(double overlap, double radius_eff, double velocity, const RowOptions&);
-double gap_allowance(double radius_eff);   // [m] overlap to which a gap may close
+double gap_allowance(double radius_eff, double mass_eff, double velocity, const RowCoefficients&, const RowOptions&);   // [m] overlap to which it may
 
 template <class Space> struct ConstraintSetup {
   static constexpr const char* name = "constraint_setup";

@@ -8,7 +8,11 @@ namespace skred {
 
 namespace {
 
-struct Outcome { int sweeps = 0; double residual = 0; };
+struct Outcome {
+  int sweeps = 0;
+  double residual = 0;
+  double left = 1;               // part that the sweeps leave of an error that falls as slowly as at the last of them
+};
 
 // What the sweeps of a step work on.
 struct System {
@@ -31,28 +35,43 @@ SweepChange sum(std::span<const SweepChange> change, SweepChange all) {
   return all;
 }
 
+double power(double x, int n) {
+  double out = 1;
+  for (; n > 0 && out > 0; --n) out *= x;
+  return out;
+}
+
 double residual_of(const SweepChange& all) { return all.change > 0 ? all.change / all.total : 0; }
 
 Outcome solve(const Parallel& parallel, const SweepOptions& o, const System& of) {
   const auto& [first_of_colour, groups, bodies, change, hubs, inertia] = of;
-  constexpr int between_measures = 4;
+  constexpr int between_tests = 4;
   Outcome out;
+  double before = 0, ratio = 1;                              // [N s] change of the sweep before a test, and that of the test to it
   while (out.sweeps < o.most) {
     ++out.sweeps;
-    const bool last = out.sweeps == o.most, measured = last || (o.tolerance > 0 && out.sweeps % between_measures == 0);
+    const auto is_tested = [&](int n) { return n == o.most || (o.tolerance > 0 && n % between_tests == 0); };
+    const bool tested = is_tested(out.sweeps), measured = tested || is_tested(out.sweeps + 1);
     const SweepGroups sweep = measured ? o.measured_sweep : o.sweep;
-    by_colour(parallel, first_of_colour, [&](std::size_t b) { sweep_block(sweep, o, of, b); });
+    by_colour(parallel, first_of_colour, out.sweeps, [&](std::size_t b) { sweep_block(sweep, o, of, b); });
     SweepChange of_hubs;
     sweep_hubs(hubs, bodies, inertia, o.kind, o.separation_speed, of_hubs);
     if (!measured) continue;
-    out.residual = residual_of(sum(change, of_hubs));
+    const SweepChange all = sum(change, of_hubs);
+    if (!tested) {
+      before = all.change;
+      continue;
+    }
+    out.residual = residual_of(all);
+    ratio = before > 0 ? std::min(1.0, all.change / before) : 1;
     if (out.residual <= o.tolerance) break;
   }
+  out.left = power(ratio, out.sweeps);
   return out;
 }
 
-// The same, but a block is visited only when it has an impact, or when it or a neighbour has just changed by more than the tolerance
-// allows: few impacts need not wake everyone.
+// The same, but a block is visited only when it has an impact, or when it or a neighbour has just changed by more than its share of what
+// the tolerance allows: few impacts need not wake everyone.
 // A dynamic body may reach anywhere: with one, everyone is awake.
 Outcome solve_near(std::span<const Index> impacts, std::span<const BlockNeighbours> neighbours, const Parallel& parallel, const SweepOptions& o, const System& of) {
   if (!of.hubs.empty()) return solve(parallel, o, of);
@@ -63,7 +82,7 @@ Outcome solve_near(std::span<const Index> impacts, std::span<const BlockNeighbou
   double enough = 0;                                         // [N s]
   while (out.sweeps < o.most) {
     ++out.sweeps;
-    by_colour(parallel, first_of_colour, [&](std::size_t b) {
+    by_colour(parallel, first_of_colour, out.sweeps, [&](std::size_t b) {
       if (!awake[b].exchange(0, std::memory_order_relaxed)) return;
       sweep_block(o.measured_sweep, o, of, b);
       if (change[b].change <= enough) return;
@@ -72,9 +91,12 @@ Outcome solve_near(std::span<const Index> impacts, std::span<const BlockNeighbou
         if (n != no_index) awake[n].store(1, std::memory_order_relaxed);
     });
     const SweepChange all = sum(change, {});
-    enough = o.tolerance * all.total;
+    const auto pressed = std::count_if(change.begin(), change.end(), [](const SweepChange& c) { return c.total > 0; });
+    enough = pressed > 0 ? o.tolerance * all.total / double(pressed) : 0;
     out.residual = residual_of(all);
-    if (std::none_of(awake.begin(), awake.end(), [](const auto& a) { return a.load(std::memory_order_relaxed) != 0; })) break;
+    if (std::any_of(awake.begin(), awake.end(), [](const auto& a) { return a.load(std::memory_order_relaxed) != 0; })) continue;
+    if (out.residual <= o.tolerance) break;                  // else some fell asleep when all impulses were larger
+    for (std::size_t b = 0; b < awake.size(); ++b) awake[b].store(change[b].change > enough, std::memory_order_relaxed);
   }
   return out;
 }
@@ -84,18 +106,19 @@ Outcome solve_near(std::span<const Index> impacts, std::span<const BlockNeighbou
 void ImpactSolve::operator()(Parallel parallel, Read<&ContactBlocks::first_of_colour> first_of_colour, Read<&ContactBlocks::impacts> impacts_of_block,
                              Read<&ContactBlocks::neighbours> neighbours, Update<&ContactBlocks::groups> groups, Update<&ContactBlocks::sources> sources, Update<&ContactBlocks::change> change,
                              Update<&HubContacts::contact> hubs, Read<&SolverBodies::inverse_inertia> inertia, Update<&SolverBodies::state> bodies, Write<&Solver::impacts> impacts, Write<&Solver::impact_sweeps> sweeps_done,
-                             Write<&Solver::impact_residual> residual) const {
+                             Write<&Solver::impact_residual> residual, Update<&Solver::impacts_unsolved> unsolved) const {
   impacts[0] = std::accumulate(impacts_of_block.begin(), impacts_of_block.end(), std::int64_t{0}) +
                std::count_if(hubs.begin(), hubs.end(), [](const HubContact& c) { return c.impact; });
   const Outcome done = impacts[0] > 0 ? solve_near(impacts_of_block, neighbours, parallel, sweeps, {first_of_colour, groups, bodies, change, hubs, inertia})
                                       : Outcome{};
   sweeps_done[0] = done.sweeps;
   residual[0] = done.residual;
+  unsolved[0] += done.residual > sweeps.tolerance && sweeps.tolerance > 0;
   if (impacts[0] == 0) return;
   for (HubContact& c : hubs) {
     c.impact_impulse = c.normal_impulse * c.normal + c.friction_impulse;
     c.normal_impulse = 0;
-    c.friction_impulse = {};
+    c.friction_impulse = c.rolling_impulse = {};
   }
   parallel(groups.size(), blocks_at_a_time, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b)
@@ -104,7 +127,7 @@ void ImpactSolve::operator()(Parallel parallel, Read<&ContactBlocks::first_of_co
         for (std::size_t l = 0; l < std::size_t(g.count); ++l)
           sources[b][k].impact_impulse[l] = g.normal_impulse[l] * at(g.normal, l) + at(g.friction_impulse, l);
         g.normal_impulse = {};
-        g.friction_impulse = {};
+        g.friction_impulse = g.rolling_impulse = {};
       }
   });
 }
@@ -112,11 +135,12 @@ void ImpactSolve::operator()(Parallel parallel, Read<&ContactBlocks::first_of_co
 void ContactSolve::operator()(Parallel parallel, Read<&ContactBlocks::first_of_colour> first_of_colour, Read<&ContactBlocks::contacts> contacts_of_block,
                               Update<&ContactBlocks::groups> groups, Update<&ContactBlocks::change> change, Update<&HubContacts::contact> hubs,
                               Read<&SolverBodies::inverse_inertia> inertia, Update<&SolverBodies::state> bodies, Write<&Solver::contacts> contacts,
-                              Write<&Solver::sweeps> sweeps_done, Write<&Solver::residual> residual, Update<&Solver::unsolved> unsolved) const {
+                              Write<&Solver::sweeps> sweeps_done, Write<&Solver::residual> residual, Write<&Solver::error_left> error_left, Update<&Solver::unsolved> unsolved) const {
   const Outcome done = solve(parallel, sweeps, {first_of_colour, groups, bodies, change, hubs, inertia});
   contacts[0] = std::accumulate(contacts_of_block.begin(), contacts_of_block.end(), std::int64_t(hubs.size()));
   sweeps_done[0] = done.sweeps;
   residual[0] = done.residual;
+  error_left[0] = done.left;
   unsolved[0] += done.residual > sweeps.tolerance && sweeps.tolerance > 0;
 }
 

@@ -1,7 +1,8 @@
 // kernels/contact_solve.h - the velocities at the end of the step: sweeps of projected Gauss-Seidel until little changes (nonsmooth DEM).
 //
 // impact_solve   contacts that close faster than v_imp are turned round at once, u_n+ = -e u_n- [Newton's law; Moreau 1988], while
-//                no other contact may close.
+//                no other contact may close. Rolling resistance acts in impacts too, as it does while a soft contact lasts: flows
+//                of many impacts are else too easy. (Its couple then is not in the torques that bodies report.)
 // contact_solve  the rows of engine/contact_rows.h, from where kernels/contact_start.h begins.
 #pragma once
 #include "engine/access.h"
@@ -25,7 +26,7 @@ struct ImpactSolve {
   void operator()(Parallel parallel, Read<&ContactBlocks::first_of_colour> first_of_colour, Read<&ContactBlocks::impacts> impacts_of_block,
                   Read<&ContactBlocks::neighbours> neighbours, Update<&ContactBlocks::groups> groups, Update<&ContactBlocks::sources> sources, Update<&ContactBlocks::change> change,
                   Update<&HubContacts::contact> hubs, Read<&SolverBodies::inverse_inertia> inertia, Update<&SolverBodies::state> bodies, Write<&Solver::impacts> impacts, Write<&Solver::impact_sweeps> sweeps_done,
-                  Write<&Solver::impact_residual> residual) const;
+                  Write<&Solver::impact_residual> residual, Update<&Solver::impacts_unsolved> unsolved) const;
 };
 
 struct ContactSolve {
@@ -36,7 +37,7 @@ struct ContactSolve {
   void operator()(Parallel parallel, Read<&ContactBlocks::first_of_colour> first_of_colour, Read<&ContactBlocks::contacts> contacts_of_block,
                   Update<&ContactBlocks::groups> groups, Update<&ContactBlocks::change> change, Update<&HubContacts::contact> hubs,
                   Read<&SolverBodies::inverse_inertia> inertia, Update<&SolverBodies::state> bodies, Write<&Solver::contacts> contacts,
-                  Write<&Solver::sweeps> sweeps_done, Write<&Solver::residual> residual, Update<&Solver::unsolved> unsolved) const;
+                  Write<&Solver::sweeps> sweeps_done, Write<&Solver::residual> residual, Write<&Solver::error_left> error_left, Update<&Solver::unsolved> unsolved) const;
 };
 
 }  // namespace skred

@@ -12,7 +12,7 @@ void ContactStart<rolling>::operator()(Parallel parallel, Read<&Particles::id> i
                                        Read<&BodyContacts::spring> body_impulse, If<rolling, Read<&Contacts::rolling>> rolling_impulse,
                                        If<rolling, Read<&BodyContacts::rolling>> body_rolling_impulse, Read<&RigidContacts::spring> rigid_impulse,
                                        Update<&HubContacts::contact> hubs, Read<&SolverBodies::inverse_inertia> inertia, Update<&SolverBodies::state> bodies,
-                                       Read<&Solver::residual> residual) const {
+                                       Read<&Solver::residual> residual, Read<&Solver::error_left> error_left) const {
   const double h = time_step;
   const auto for_each_contact = [&](std::size_t b, const auto& fetch_last, const auto& visit) {
     const auto& of_block = groups[b];
@@ -42,14 +42,14 @@ void ContactStart<rolling>::operator()(Parallel parallel, Read<&Particles::id> i
   parallel(id.size(), 4096, fall);
   fall(bodies.size() - inertia.size(), bodies.size());
 
-  constexpr double trusted = 0.05;                           // residual of the last step up to which its impulses are taken whole
-  const double share = residual[0] <= trusted ? 1 : 0.5;
+  // Impulses kept for many steps lag behind the motion and drive it: of an error, what sweeps and this leave of it is half at the most.
+  const double share = residual[0] <= trusted_residual ? 1 : std::min(1.0, 0.5 / error_left[0]);
   const auto fetch_impulses = [&](Index c) {                 // of pairs; a few are at walls
     __builtin_prefetch(impulse.data() + c);
     if constexpr (rolling) __builtin_prefetch(rolling_impulse.data() + c);
   };
   if (warm_start)
-    by_colour(parallel, first_of_colour, [&](std::size_t b) {
+    by_colour(parallel, first_of_colour, 0, [&](std::size_t b) {
       for_each_contact(b, fetch_impulses, [&](ContactGroup& g, const GroupSource& s, std::size_t l) {
         if (s.impact[l]) return;
         const Index c = s.contact[l];

@@ -112,7 +112,7 @@ template <class R, SweepKind kind>
 
 template <SweepKind kind> template <VectorPath path>
 void ContactSweep<kind>::run(std::span<ContactGroup> groups, std::span<const ContactGroup> next, SolverBody* bodies, double separation_speed, SweepChange& out) {
-  sweep_groups<typename NumberOf<path>::type, kind>(groups, next, bodies, separation_speed, out);
+  sweep_groups<NumberOf<path>, kind>(groups, next, bodies, separation_speed, out);
 }
 
 }  // namespace skred

@@ -38,14 +38,14 @@ template <class R, class Lanes> LawCoefficientsT<R> coefficients(const VariousPa
           of_pair(&LawCoefficients::tangential_damping), of_pair(&LawCoefficients::friction), of_pair(&LawCoefficients::rolling_friction)};
 }
 
-template <class R, class Pairs, class Lanes> PairState<R> state_of(const Pairs& pairs, const PairColumns& c, const Lanes& row) {
+template <class R, class Pairs, class Lanes>
+void look_at(const Pairs& pairs, const PairColumns& c, const Lanes& row, PairState<R>& pair) {
   using std::sqrt;
   const auto i = rows_named<R>(c.i, row), j = rows_named<R>(c.j, row);
   const auto p = radii_and_mass<R>(pairs.kinds, c, i, j);
 
   const Vec3T<R> branch = pairs.space.shortest(load<R>(c.position, i) - load<R>(c.position, j));
   const R distance = norm(branch);
-  PairState<R> pair;
   ContactState<R>& s = pair.contact;
   s.overlap = p.radius_i + p.radius_j - distance;            // g = R_i + R_j - |x_i - x_j|   eq (2.8)
   s.normal = select(distance > R(0), (R(1) / distance) * branch, Vec3T<R>{R(0), R(0), R(1)});
@@ -63,7 +63,6 @@ template <class R, class Pairs, class Lanes> PairState<R> state_of(const Pairs& 
     s.tangential_velocity = u - s.normal_velocity * s.normal;
     s.rolling_velocity = in_tangent_plane(spin_i - spin_j, s.normal);
   }
-  return pair;
 }
 
 template <class R, class Pairs, class Lanes>
@@ -89,19 +88,29 @@ void apply_law(const Pairs& pairs, const PairState<R>& pair, const PairColumns& 
 template <class R, class Pairs> [[gnu::flatten]] void calculate_forces(const Pairs& pairs, const PairColumns& c, std::size_t first, std::size_t last) {
   constexpr std::size_t packs = 4, width = lanes<R>;
   PairState<R> state[packs];
+  const auto look = [&](const auto& row, PairState<R>& out) {
+    if constexpr (lanes<R> > 1) {
+      look_at(pairs, c, row, out);                           // where it stays: to return packs, a compiler writes them twice
+    } else {
+      PairState<R> here;                                     // and plain numbers stay in registers while nobody else can see them
+      look_at(pairs, c, row, here);
+      out = here;
+    }
+  };
   for (; first + packs * width <= last; first += packs * width) {
-    for (std::size_t k = 0; k < packs; ++k) state[k] = state_of<R>(pairs, c, FullRange<R>{first + k * width});
+    for (std::size_t k = 0; k < packs; ++k) look(FullRange<R>{first + k * width}, state[k]);
     for (std::size_t k = 0; k < packs; ++k) apply_law(pairs, state[k], c, FullRange<R>{first + k * width});
   }
   for (; first < last; first += width) {
     const PartOfRange<R> row(first, last);
-    apply_law(pairs, state_of<R>(pairs, c, row), c, row);
+    look(row, state[0]);
+    apply_law(pairs, state[0], c, row);
   }
 }
 
 template <class Law, class Kinds, class Space> template <VectorPath path>
 void PairForces<Law, Kinds, Space>::run(const PairForces& pairs, const PairColumns& c, std::size_t first, std::size_t last) {
-  calculate_forces<typename NumberOf<path>::type>(pairs, c, first, last);
+  calculate_forces<NumberOf<path>>(pairs, c, first, last);
 }
 
 }  // namespace skred

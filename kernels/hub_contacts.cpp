@@ -55,9 +55,9 @@ void finish(HubContact& c, std::span<SolverBody> bodies, std::span<const Inverse
   const auto w = [&](const Vec3& x, const Vec3& y) { return dot(x, s.a.gives_way(y) + s.b.gives_way(y)); };
   const double w_n = w(c.normal, c.normal), velocity = dot(s.a.velocity() - s.b.velocity(), c.normal);
   const NormalRow row = normal_row(c.overlap, radius_eff, 1 / w_n, k, o);
-  c.impact = is_impact(c.overlap, velocity, o);
+  c.impact = is_impact(c.overlap, velocity, k, o);
   c.bias = impact_bias(c.overlap, radius_eff, velocity, c.impact, k);
-  c.allowance = gap_allowance(radius_eff);
+  c.allowance = gap_allowance(radius_eff, 1 / w_n, velocity, k, o);
   c.velocity_factor = row.velocity_factor;
   c.compliance = row.compliance;
   c.normal_step = 1 / (w_n + row.compliance);

@@ -1,5 +1,6 @@
 // The hot loops for one set of vector instructions: compiled once per path, with SKRED_PATH its name and the
 // compiler flags that go with it (CMakeLists.txt). Nothing here may be used by other translation units but run<SKRED_PATH>.
+#include "kernels/broadphase_loop.h"
 #include "kernels/contact_sweep_loop.h"
 #include "kernels/force_application_loop.h"
 #include "kernels/force_calculation_loop.h"
@@ -28,7 +29,9 @@ SKRED_INSTANTIATE_SUM(true, true, true)
   template void ContactSweep<SweepKind{__VA_ARGS__, false}>::run<VectorPath::SKRED_PATH>(std::span<ContactGroup>, std::span<const ContactGroup>, SolverBody*, double, SweepChange&); \
   template void ContactSweep<SweepKind{__VA_ARGS__, true}>::run<VectorPath::SKRED_PATH>(std::span<ContactGroup>, std::span<const ContactGroup>, SolverBody*, double, SweepChange&);
 SKRED_INSTANTIATE_SWEEP(true, false, false, false)           // impact, friction, rolling, limited
+SKRED_INSTANTIATE_SWEEP(true, false, true, false)
 SKRED_INSTANTIATE_SWEEP(true, true, false, false)
+SKRED_INSTANTIATE_SWEEP(true, true, true, false)
 SKRED_INSTANTIATE_SWEEP(false, false, false, false)
 SKRED_INSTANTIATE_SWEEP(false, false, false, true)
 SKRED_INSTANTIATE_SWEEP(false, false, true, false)
@@ -37,5 +40,8 @@ SKRED_INSTANTIATE_SWEEP(false, true, false, false)
 SKRED_INSTANTIATE_SWEEP(false, true, false, true)
 SKRED_INSTANTIATE_SWEEP(false, true, true, false)
 SKRED_INSTANTIATE_SWEEP(false, true, true, true)
+
+template std::size_t Surroundings<OpenSpace>::near<VectorPath::SKRED_PATH>(const Surroundings&, const Vec3&, double, const Places*, const Places*, Index*);
+template std::size_t Surroundings<PeriodicSpace>::near<VectorPath::SKRED_PATH>(const Surroundings&, const Vec3&, double, const Places*, const Places*, Index*);
 
 }  // namespace skred

@@ -67,10 +67,11 @@ void write_lane(Writer& out, int lane, const std::vector<Timeline::Event>& event
     while (!open.empty() && open.back() <= begin) open.pop_back();
     if (!open.empty()) end = std::min(end, open.back());
     open.push_back(end);
+    const std::string loop = e.label.sweep > 0 ? fmt::format(R"(,"sweep":{},"colour":{})", e.label.sweep, e.label.colour) : "";
     out.event(R"({{"name":{},"cat":"{}","ph":"X","ts":{},"dur":{},"pid":1,"tid":{},"cname":"{}",)"
-              R"("args":{{"step":{},"rows":{}}}}})",
+              R"("args":{{"step":{},"rows":{}{}}}}})",
               names[e.kernel], e.whole_call ? "call" : "chunk", microseconds(begin), microseconds(end - begin), lane,
-              colours[e.kernel], e.step, e.rows);
+              colours[e.kernel], e.step, e.rows, loop);
   }
 }
 

@@ -12,6 +12,7 @@ struct Entry { std::string_view kernel; KernelColour colour; };
 
 constexpr Entry known[] = {
     {"broadphase", {"#0b6fb3", "thread_state_runnable"}},
+    {"contact_listing", {"#3d8ec9", "rail_load"}},
     {"contact_hashing", {"#0a3a66", "vsync_highlight_color"}},
     {"broadphase_body", {"#56b4e9", "rail_response"}},
     {"contact_geometry_body", {"#a5d4f2", "light_memory_dump"}},
@@ -30,6 +31,7 @@ constexpr Entry known[] = {
     {"contact_start", {"#8f3f86", "heap_dump_child_node_arrow"}},
     {"contact_solve", {"#cc79a7", "heap_dump_stack_frame"}},
     {"impulse_application", {"#e7b7d3", "heap_dump_object"}},
+    {"swept_test", {"#c9e8da", "startup"}},
     {"sample", {"#5f6368", "grey"}},
     {"write_frame", {"#303338", "black"}},
 };

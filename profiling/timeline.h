@@ -15,6 +15,7 @@
 #include <mutex>
 #include <string>
 #include <vector>
+#include "engine/loop_label.h"
 #if defined(__x86_64__)
 #include <x86intrin.h>
 #endif
@@ -27,7 +28,7 @@ using KernelId = std::uint16_t;
 class Timeline {
  public:
   static constexpr std::size_t max_kernels = 128;
-  static constexpr std::size_t max_events = std::size_t{1} << 22;   // kept in all lanes together: 128 MiB, a trace of ~0.6 GB
+  static constexpr std::size_t max_events = std::size_t{1} << 22;   // kept in all lanes together: 160 MiB, a trace of ~0.6 GB
 
   // Lanes 0 .. threads-1 are the arena's slots; lane `threads` is the frame writer's. Throws std::invalid_argument if
   // threads < 1.
@@ -55,7 +56,7 @@ class Timeline {
   void end_step();
 
   // A part of a kernel's rows done by the calling thread on `lane`: busy time. Chunks of a lane do not overlap.
-  void chunk(int lane, KernelId k, Ticks begin, Ticks end, std::size_t rows);
+  void chunk(int lane, KernelId k, Ticks begin, Ticks end, std::size_t rows, LoopLabel label = {});
   // A whole call of a kernel, from its start to the end of its last chunk, waiting included. Its work is recorded as chunks, at
   // least one. A kernel is not called while it runs.
   void call(int lane, KernelId k, Ticks begin, Ticks end, std::size_t rows);
@@ -63,7 +64,7 @@ class Timeline {
   void counter(const std::string& name, double value);
   bool tracing() const { return tracing_.load(std::memory_order_relaxed); }
 
-  struct Event { Ticks begin, end; std::uint32_t rows; KernelId kernel; bool whole_call; std::int64_t step; };
+  struct Event { Ticks begin, end; std::uint32_t rows; KernelId kernel; bool whole_call; std::int64_t step; LoopLabel label = {}; };
   struct StepSpan { std::int64_t step; Ticks begin, end; };
   struct CounterEvent { std::string name; Ticks at; double value; };
 
@@ -184,14 +185,14 @@ inline void Timeline::record(int lane, const Event& e) {
   }
 }
 
-inline void Timeline::chunk(int lane, KernelId k, Ticks begin, Ticks end, std::size_t rows) {
+inline void Timeline::chunk(int lane, KernelId k, Ticks begin, Ticks end, std::size_t rows, LoopLabel label) {
   assert(k < names_.size());
   if (lane < 0 || lane > threads_) {                // a thread outside the arena has no lane
     astray_.fetch_add(1, std::memory_order_relaxed);
     return;
   }
   lanes_[lane].busy[k].add(elapsed(begin, end));
-  record(lane, {begin, end, static_cast<std::uint32_t>(rows), k, false, step_.load(std::memory_order_relaxed)});
+  record(lane, {begin, end, static_cast<std::uint32_t>(rows), k, false, step_.load(std::memory_order_relaxed), label});
 }
 
 inline void Timeline::call(int lane, KernelId k, Ticks begin, Ticks end, std::size_t rows) {

@@ -2,6 +2,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include "engine/io/io_error.h"
@@ -53,7 +56,7 @@ struct SceneOptions {
 };
 
 int run_program(int argc, char** argv) {
-  CLI::App app{"Skred " SKRED_VERSION ": granular matter with smooth DEM.", "skred"};
+  CLI::App app{"Skred " SKRED_VERSION ": granular matter with smooth and nonsmooth DEM.", "skred"};
   app.require_subcommand(1);
   app.set_version_flag("--version", "skred " SKRED_VERSION);
   app.set_help_all_flag("--help-all", "help of every verb");
@@ -146,6 +149,9 @@ int guarded(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+#ifdef __GLIBC__
+  mallopt(M_MMAP_THRESHOLD, 4'000'000);      // large columns come back to the system when freed, instead of leaving holes
+#endif
   const int code = guarded(argc, argv);
   if (code != exit_io) return code;
   std::fflush(nullptr);

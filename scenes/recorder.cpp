@@ -4,6 +4,8 @@ namespace skred {
 
 namespace {
 
+constexpr std::size_t many_particles = 200'000;
+
 FrameHeader header_of(const Scene& scene, const Simulation& sim) {
   const Particles& p = std::get<Particles>(sim.world());
   FrameHeader h;
@@ -49,6 +51,8 @@ Recorder::Recorder(const Scene& scene, Simulation& sim, const OutputFolder& fold
 void Recorder::frame() {
   if (sim_.steps_done() == last_frame_step_) return;
   last_frame_step_ = sim_.steps_done();
+  // A copy takes 100 bytes per particle, a tenth of the simulation: of many particles there is only one at a time.
+  if (std::get<Particles>(sim_.world()).rows() > many_particles) writer_.drain();
   const Ticks begin = Timeline::now();
   auto f = std::make_shared<Frame>(make_frame(sim_, {scene_.output.contacts}));
   const Ticks end = Timeline::now();

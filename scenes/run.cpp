@@ -46,12 +46,13 @@ std::shared_ptr<spdlog::logger> make_log(const OutputFolder& folder, const RunOp
 // How the solver of nonsmooth DEM did.
 struct Sweeps {
   std::int64_t contact = 0, most = 0, impact = 0, contact_sweeps = 0;   // sums over the steps; contact_sweeps: contacts times sweeps
-  double residual = 0;                                                   // greatest at the end of a step
+  double residual = 0, impact_residual = 0;                              // greatest at the end of a step
   void add(const Solver& s) {
     contact += s.sweeps.data[0], impact += s.impact_sweeps.data[0];
     most = std::max(most, s.sweeps.data[0]);
     contact_sweeps += s.sweeps.data[0] * s.contacts.data[0];
     residual = std::max(residual, s.residual.data[0]);
+    impact_residual = std::max(impact_residual, s.impact_residual.data[0]);
   }
 };
 
@@ -118,6 +119,8 @@ void check_trouble(Run& r) {
   switch (s.trouble.data[0]) {
     case Trouble::not_finite: throw NumericalFailure(where + ": not a number; " + likely_cause(r));
     case Trouble::too_fast:
+      if (r.scene.method == Method::ndem)
+        throw NumericalFailure(where + ": it goes so far in one step that it could meet two images of another particle; " + likely_cause(r));
       throw NumericalFailure(where + fmt::format(": it moves more than half its radius ({:g} m) in one step; ", p.radius.data[row]) + likely_cause(r));
     default:
       throw NumericalFailure(where + ": it left the bounds of the scene; likely causes: a gap between walls, a wall that ends too low, "
@@ -156,6 +159,8 @@ void add_solver(nlohmann::json& summary, const Run& r, const Timeline::Totals& t
   summary["residual"] = s.residual.data[0];
   summary["greatest_residual"] = r.sweeps.residual;
   summary["steps_unsolved"] = s.unsolved.data[0];
+  summary["greatest_impact_residual"] = r.sweeps.impact_residual;
+  summary["impacts_unsolved"] = s.impacts_unsolved.data[0];
   summary["contact_sweeps"] = r.sweeps.contact_sweeps;
   summary["seconds_per_sweep"] = r.sweeps.contact > 0 ? in_sweeps / double(r.sweeps.contact) : 0;
 }
@@ -184,10 +189,14 @@ std::string solver_text(const Run& r) {
   if (r.scene.method != Method::ndem) return "";
   const std::int64_t unsolved = std::get<Solver>(r.sim.world()).unsolved.data[0];
   const double steps = std::max<double>(1, double(r.sim.steps_done()));
+  const std::int64_t impacts_unsolved = std::get<Solver>(r.sim.world()).impacts_unsolved.data[0];
   std::string text = fmt::format(", {:.1f} sweeps a step", double(r.sweeps.contact) / steps);
   if (unsolved > 0)
     text += fmt::format("; {} of {} steps stopped at {} sweeps above the tolerance {:g} (greatest residual {:.2g})", unsolved, r.sim.steps_done(),
                         r.scene.solver.iterations, r.scene.solver.tolerance, r.sweeps.residual);
+  if (impacts_unsolved > 0)
+    text += fmt::format("; the impact stage of {} steps stopped at {} sweeps above the tolerance (greatest residual {:.2g})", impacts_unsolved,
+                        r.scene.solver.impact_iterations, r.sweeps.impact_residual);
   return text;
 }
 
@@ -211,10 +220,16 @@ void write_pictures(const Run& r) {
     c.processor = processor_name();
     c.particles = std::int64_t(std::get<Particles>(r.sim.world()).rows());
     c.contacts = std::int64_t(r.last.contacts + r.last.body_contacts);
-    c.parts = {{"collision detection and hashing", {"check_motion", "reorder", "broadphase", "contact_hashing", "broadphase_body",
-                                                    "contact_hashing_body", "contact_geometry_body"}},
-               {"force calculation and application", {"force_calculation_particle_particle", "force_calculation_particle_body",
-                                                      "force_application_particle", "force_application_body"}}};
+    c.parts = {{"collision detection and hashing", {"check_motion", "reorder", "broadphase", "contact_listing", "contact_hashing",
+                                                    "broadphase_body", "contact_hashing_body", "contact_geometry_body",
+                                                    "broadphase_body_body", "contact_geometry_body_body"}}};
+    if (r.scene.method == Method::ndem)
+      c.parts.push_back({"constraints and their solution", {"constraint_setup", "constraint_setup_body", "impact_solve", "contact_start",
+                                                            "contact_solve", "impulse_application", "impulse_application_body"}});
+    else
+      c.parts.push_back({"force calculation and application", {"force_calculation_particle_particle", "force_calculation_particle_body",
+                                                               "force_calculation_body_body", "force_application_particle",
+                                                               "force_application_body"}});
     write_timeline_svg(r.options.timeline, t, c);
     r.log.info("timeline: {}", r.options.timeline);
   }

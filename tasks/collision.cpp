@@ -18,7 +18,7 @@ void add_search(Task& task, const World& w, const Model& m, const Effects& e, co
   task.add(CheckMotion<Space>{space, margins_of(w, m), time_step, m.bounds.has_value(), m.bounds.value_or(Bounds{}), m.stop_outside, step_ahead(w, m)});
   task.add(Reorder{cell_of(w, m), m.reorder_every});
   if (!e.contacts) return;
-  task.add(Broadphase<Space>{space, cell_of(w, m)});
+  task.add(Broadphase<Space>{space, cell_of(w, m), near_loop<Space>(m.vector_path)});
   task.add(ContactListing<Space>{space, columns});
 }
 
@@ -38,7 +38,8 @@ void add_collision(Task& task, const World& w, const Model& m, const Effects& e,
     task.add(BroadphaseBody{margins_of(w, m).walls, columns});
     if (columns.spring || columns.rolling) add_hashing<ContactHashingBody>(task, columns);
     else if (e.meshes) task.add(ContactHashingBody<false, false>{});
-    task.add(ContactGeometryBody{});
+    if (m.method == Method::ndem) task.add(ContactGeometryBody<true>{m.time_step, m.time_step * m.time_step * norm(m.gravity)});
+    else task.add(ContactGeometryBody<false>{});
   }
 }
 

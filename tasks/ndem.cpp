@@ -10,6 +10,7 @@
 #include "kernels/initial_forces.h"
 #include "kernels/move_bodies.h"
 #include "kernels/restitution.h"
+#include "kernels/swept_test.h"
 #include "tasks/steps.h"
 #include "tasks/time_step.h"
 
@@ -46,10 +47,10 @@ template <bool rolling, class Space> void add_solver(Task& task, const World& w,
   task.add(ConstraintSetup<Space>{space, rows, m.pairs.count, coefficients(m), largest_radius(w)});
   if (e.dynamic_bodies) task.add(ConstraintSetupBody{rows, m.pairs.count, coefficients(m)});
   if (e.impacts)
-    task.add(ImpactSolve{e.friction ? options<true, true, false, false>(m, m.solver.impact_iterations)
-                                    : options<true, false, false, false>(m, m.solver.impact_iterations)});
+    task.add(ImpactSolve{e.friction ? options<true, true, rolling, false>(m, m.solver.impact_iterations)
+                                    : options<true, false, rolling, false>(m, m.solver.impact_iterations)});
   const bool limited = m.solver.separation_speed.has_value();
-  task.add(ContactStart<rolling>{h, m.gravity, m.solver.warm_start});
+  task.add(ContactStart<rolling>{h, m.gravity, m.solver.warm_start, m.solver.trusted_residual});
   task.add(ContactSolve{limited ? contact_sweeps<rolling, true>(m, e) : contact_sweeps<rolling, false>(m, e)});
   task.add(ImpulseApplication<rolling>{h});
   if (e.dynamic_bodies) task.add(ImpulseApplicationBody{h});
@@ -69,6 +70,7 @@ void add_ndem(Task& task, const World& world, const Model& model, bool initial) 
   if (model.periodic) add(*model.periodic);
   else add(OpenSpace{});
   if (initial) return;
+  if (e.bodies) task.add(SweptTest{model.time_step});
   add_integrate(task, model, e, model.time_step);
   if (e.moving_bodies) task.add(MoveBodies{model.pieces, model.bodies_at_start, model.time_step, model.time_step});
 }

@@ -98,6 +98,8 @@ Frame make_frame(const Simulation& sim, const FrameOptions& options) {
   Frame f;
   f.step = sim.steps_done();
   f.time = sim.time();
+  for (auto* column : {&f.position, &f.velocity, &f.angular_velocity, &f.force}) column->reserve(rows.size());
+  f.orientation.reserve(p.orientation.data.size());
   for (const Index r : rows) {
     f.position.push_back(p.position.data[r]);
     f.velocity.push_back(p.velocity.data[r]);

@@ -56,6 +56,7 @@ void Task::compile() {
 }
 
 void Task::step() {
+  if (tbb::this_task_arena::max_concurrency() == 1) return step_serial();   // nobody to share with: the list costs less
   if (!graph_) compile();
   start_->try_put({});
   graph_->wait_for_all();

@@ -51,9 +51,11 @@ class Task {
     Ticks serial_since = 0;
     Observer(Timeline& t, KernelId k) : timeline(&t), id(k) {}
     std::uint64_t now() const override { return Timeline::now(); }
-    void chunk(int lane, std::uint64_t begin, std::size_t rows) override { timeline->chunk(lane, id, begin, Timeline::now(), rows); }
+    void chunk(int lane, std::uint64_t begin, std::size_t rows, LoopLabel label) override {
+      timeline->chunk(lane, id, begin, Timeline::now(), rows, label);
+    }
     void begin_serial() override { serial_since = Timeline::now(); }
-    void end_serial() override { chunk(tbb::this_task_arena::current_thread_index(), serial_since, 0); }
+    void end_serial() override { chunk(tbb::this_task_arena::current_thread_index(), serial_since, 0, {}); }
   };
   struct Node {
     const char* name;

@@ -20,6 +20,7 @@ void WriterThread::run() {
     jobs_.pop_front();
     room_.notify_one();
     if (failure_) continue;              // what follows a lost frame is not written
+    busy_ = true;
     lock.unlock();
     std::exception_ptr failure;
     if (hooks_.before) hooks_.before();
@@ -31,8 +32,9 @@ void WriterThread::run() {
     if (hooks_.after) hooks_.after();
     job = nullptr;                       // frees the frame it holds before the wait for the next
     lock.lock();
+    busy_ = false;
     if (failure) failure_ = failure;
-    if (failure) room_.notify_all();
+    room_.notify_all();
   }
 }
 
@@ -40,12 +42,21 @@ void WriterThread::push(Job job) {
   std::unique_lock lock(mutex_);
   if (ending_) throw std::logic_error("WriterThread: push() after finish()");
   room_.wait(lock, [&] { return failure_ || jobs_.size() < capacity_; });
-  if (failure_) {
-    told_ = true;
-    std::rethrow_exception(failure_);
-  }
+  rethrow();
   jobs_.push_back(std::move(job));
   work_.notify_one();
+}
+
+void WriterThread::drain() {
+  std::unique_lock lock(mutex_);
+  room_.wait(lock, [&] { return failure_ || (jobs_.empty() && !busy_); });
+  rethrow();
+}
+
+void WriterThread::rethrow() {
+  if (!failure_) return;
+  told_ = true;
+  std::rethrow_exception(failure_);
 }
 
 void WriterThread::end() {

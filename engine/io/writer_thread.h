@@ -26,19 +26,22 @@ class WriterThread {
   // Blocks while `capacity` jobs wait. Throws what an earlier job threw (again at every call; the new job is dropped), and
   // std::logic_error after finish().
   void push(Job job);
+  // Waits until no job waits or is being done. Throws what an earlier job threw.
+  void drain();
   // Waits for all jobs and ends the thread. Throws what a job threw, unless push() has told of it.
   void finish();
 
  private:
   void run();
   void end();
+  void rethrow();                        // the failure, if there is one
   const std::size_t capacity_;
   const Hooks hooks_;
   std::mutex mutex_;
   std::condition_variable room_, work_;
   std::deque<Job> jobs_;
   std::exception_ptr failure_;
-  bool told_ = false, ending_ = false;
+  bool told_ = false, ending_ = false, busy_ = false;
   std::thread thread_;                   // last: it uses all of the above
 };
 

@@ -64,6 +64,7 @@ const std::vector<BenchScene>& bench_scenes() {
       bed("bed-32k", 40, 40, 20),
       tiled_bed("bed-256k", 4, 2),
       tiled_bed("bed-1m", 8, 4),
+      tiled_bed("bed-10m", 20, 16),
   };
   return scenes;
 }

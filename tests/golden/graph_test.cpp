@@ -1,4 +1,4 @@
-// The graphs of four scenes against the pictures kept here: a change of the graph shows as a difference to review.
+// The graphs of some scenes against the pictures kept here: a change of the graph shows as a difference to review.
 // SKRED_WRITE_GOLDEN=1 in the environment writes them anew.
 #include <gtest/gtest.h>
 #include <cstdlib>
@@ -45,6 +45,33 @@ TEST(Graph, Tower) {
   const std::string tower = graph_dot(read_scene(SKRED_SOURCE_DIR "/scenes/tower.yaml"));
   EXPECT_EQ(tower, golden("tower", tower));
   EXPECT_EQ(drum().find("body_body"), std::string::npos);
+}
+
+// Nonsmooth DEM: the drum with other coefficients of its two materials.
+Scene nonsmooth_drum(std::vector<std::pair<std::string, std::string>> coefficients = {}) {
+  ReadOptions o;
+  o.method = "ndem";
+  for (const auto& [key, value] : coefficients)
+    for (const std::string material : {"pellet", "disc"}) o.overrides.push_back({"materials." + material + "." + key, value});
+  return read_scene(SKRED_SOURCE_DIR "/scenes/drum.yaml", o);
+}
+
+TEST(Graph, NonsmoothDrum) {
+  const std::string drum = graph_dot(nonsmooth_drum());
+  EXPECT_EQ(drum, golden("drum_ndem", drum));
+}
+
+TEST(Graph, NonsmoothDrumWithoutFrictionRollingAndRestitution) {
+  const Scene scene = nonsmooth_drum({{"friction", "0"}, {"rolling_friction", "0"}, {"restitution", "0"}});
+  const std::string drum = graph_dot(scene);
+  EXPECT_EQ(drum, golden("drum_ndem_lean", drum));
+  EXPECT_EQ(drum.find("impact_solve"), std::string::npos);
+  const auto out = [text = graph_text(scene)](const std::string& effect) {
+    const std::size_t at = text.find("  " + effect + " ");
+    return at != std::string::npos && text.substr(at, text.find('\n', at) - at).find(" out ") != std::string::npos;
+  };
+  for (const char* effect : {"friction", "rolling resistance", "rotation", "impact stage"}) EXPECT_TRUE(out(effect)) << effect;
+  EXPECT_FALSE(out("contact history"));                        // the solver starts from it
 }
 
 TEST(Graph, TheThreeDiffer) {

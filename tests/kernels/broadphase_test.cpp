@@ -9,9 +9,9 @@ namespace skred {
 namespace {
 
 // The pairs found; checks that each is with its lower id, once, and in order.
-template <class Space> Pairs neighbours(World& w, const Space& space, double cell) {
+template <class Space> Pairs neighbours(World& w, const Space& space, double cell, VectorPath path = VectorPath::scalar) {
   std::get<Search>(w).due.data[0] = 1;
-  call(Broadphase<Space>{space, cell}, w);
+  call(Broadphase<Space>{space, cell, near_loop<Space>(path)}, w);
   const Particles& p = std::get<Particles>(w);
   const Neighbours& list = std::get<Neighbours>(w);
   const Neighbourhood& of = std::get<Neighbourhood>(w);
@@ -33,6 +33,16 @@ TEST(Broadphase, FindsEveryPairOnce) {
     World w = random_spheres(800, 12, 3);
     EXPECT_EQ(neighbours(w, OpenSpace{}, cell), by_brute_force(w, OpenSpace{}, &Particles::search_margin)) << cell;
   }
+}
+
+TEST(Broadphase, EveryPathFindsTheSame) {
+  const PeriodicSpace box{{0, 0, 0}, {12, 12, 12}};
+  for (const VectorPath path : vector_paths())
+    for (const int n : {1, 9, 800}) {
+      World w = random_spheres(n, 12, 3);
+      EXPECT_EQ(neighbours(w, OpenSpace{}, least_cell, path), by_brute_force(w, OpenSpace{}, &Particles::search_margin)) << name_of(path);
+      EXPECT_EQ(neighbours(w, box, least_cell, path), by_brute_force(w, box, &Particles::search_margin)) << name_of(path);
+    }
 }
 
 TEST(Broadphase, MarginsOfBothCount) {

@@ -9,6 +9,7 @@ import sys
 
 PACKS = {"avx2": "simd_abi::_VecBuiltin<32>", "avx512": "simd_abi::_VecBltnBtmsk<64>"}   # of std::experimental::simd
 NUMBER = {"avx2": 2, "avx512": 3}                                                       # VectorPath in engine/vector_path.h
+LOOPS = {"PairForces": "run", "ContactSummation": "run", "ContactSweep": "run", "Surroundings": "near"}
 NOT_CODE = {"DW.ref.__gxx_personality_v0"}                                              # a pointer
 
 
@@ -16,13 +17,12 @@ def main(nm, build_type, path, *objects):
     if build_type == "Debug":
         print("skipped: a Debug build inlines nothing; its vector paths are for processors that have them")
         sys.exit(77)
-    loop = f"::run<(skred::VectorPath){NUMBER[path]}>("
     loops, shared = 0, []
     for symbol in subprocess.run([nm, "-C", *objects], check=True, capture_output=True, text=True).stdout.splitlines():
         kind, _, name = symbol[17:].partition(" ")              # after the address
         if kind not in ("W", "V", "u"):
             continue
-        ours = loop in name and ("skred::PairForces<" in name or "skred::ContactSummation<" in name)
+        ours = any(f"skred::{of}<" in name and f"::{run}<(skred::VectorPath){NUMBER[path]}>(" in name for of, run in LOOPS.items())
         loops += ours
         if not ours and PACKS[path] not in name and name not in NOT_CODE:
             shared.append(name)

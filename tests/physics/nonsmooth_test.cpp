@@ -1,53 +1,10 @@
 // Nonsmooth DEM against closed forms: single contacts, columns, impacts, and the rate of the solver.
-#include <gtest/gtest.h>
-#include "tests/physics/lab.h"
+#include "tests/physics/nonsmooth_lab.h"
 
 namespace skred {
 namespace {
 
 using namespace lab;
-
-constexpr double R = pellet_radius;
-const double g = 9.81, m = sphere_mass(R);
-
-struct NonsmoothLab : Lab {
-  NonsmoothLab(double restitution, double friction, double rolling_friction, double step = 1e-3) : Lab(restitution, friction, rolling_friction) {
-    model.method = Method::ndem;
-    model.time_step = step;
-    model.solver.tolerance = 1e-12;
-    model.solver.iterations = 20000;
-  }
-  void under_gravity(Vec3 direction = {0, 0, -1}) { model.gravity = g * direction; }
-  void floor() { body(PlaneShape{}); }
-};
-
-void run(Simulation& s, double time) {
-  s.start();
-  while (s.time() < time - 1e-9) s.step(Execution::list);
-}
-
-double hertz(const Lab& lab, double radius_eff) { return 4.0 / 3.0 * lab.model.pairs.values[0].young_eff * std::sqrt(radius_eff); }
-
-std::vector<double> pair_forces(const Simulation& s) {         // by id of the lower particle: a column
-  std::vector<double> out;
-  const Contacts& c = std::get<Contacts>(s.world());
-  const auto& first = std::get<Incidence>(s.world()).first.data;
-  for (const Index r : rows_by_id(std::get<Particles>(s.world())))
-    for (Index k = first[r]; k < first[r + 1]; ++k) out.push_back(norm(c.force.data[k]));
-  return out;
-}
-
-// Heights at which a column of n equal spheres on a floor is at rest.
-std::vector<double> column_at_rest(const Lab& lab, int n) {
-  std::vector<double> z;
-  double top = 0;
-  for (int k = 0; k < n; ++k) {
-    const double overlap = std::pow((n - k) * m * g / hertz(lab, k == 0 ? R : R / 2), 2.0 / 3.0);
-    z.push_back(top + (k == 0 ? R : 2 * R) - overlap);
-    top = z.back();
-  }
-  return z;
-}
 
 TEST(Nonsmooth, ColumnRestsAtTheOverlapsOfHertz) {             // T2
   for (const double h : {1e-4, 1e-3, 4e-3}) {
@@ -264,6 +221,45 @@ TEST(Nonsmooth, SweepsOfARigidColumnGrowWithTheSquareOfItsHeight) {
     while (high - low > 1) (error((low + high) / 2) > 1e-3 ? low : high) = (low + high) / 2;
     EXPECT_NEAR(high, expected, 0.05 * expected) << n;
   }
+}
+
+// A box without thickness, of 12 triangles, about the origin.
+Shape closed_box(double half) {
+  std::vector<Vec3> v;
+  for (int k = 0; k < 8; ++k) v.push_back({k & 1 ? half : -half, k & 2 ? half : -half, k & 4 ? half : -half});
+  return MeshShape{std::make_shared<Mesh>(v, std::vector<Triangle>{{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                                                                   {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}})};
+}
+
+TEST(Nonsmooth, NoneOfTenThousandShotsEscapes) {               // T13
+  std::mt19937_64 random(17);
+  const auto u = [&] { return 2.0 * double(random() >> 11) * 0x1p-53 - 1.0; };
+  constexpr double half = 8 * R, h = 1e-3;
+  int shots = 0, escaped = 0;
+  for (int box = 0; box < 250; ++box) {
+    NonsmoothLab lab(0.5, 0.3, 0, h);
+    lab.under_gravity();
+    lab.body(closed_box(half), {{}, rotation_by({u(), u(), u()})});
+    const Pose pose = lab.bodies().pose.data[0];
+    for (int k = 0; k < 40; ++k) {                             // on a lattice, so that none begins inside another
+      const Vec3 site{double(k % 4) - 1.5, double(k / 4 % 4) - 1.5, double(k / 16) - 1.0};
+      const Vec3 direction = normalized(Vec3{u(), u(), u()});
+      const double diameters = 0.5 + 2.25 * (1 + u());         // v h = 0.5 .. 5 d
+      lab.sphere(to_world(pose, 3.2 * R * site), (diameters * 2 * R / h) * direction);
+      ++shots;
+    }
+    lab.model.solver.tolerance = 1e-3;
+    lab.model.solver.iterations = 50;
+    auto s = lab.build();
+    s->start();
+    for (int k = 0; k < 20; ++k) s->step();
+    for (const Vec3& x : std::get<Particles>(s->world()).position.data) {
+      const Vec3 in_box = to_local(pose, x);
+      escaped += !(std::max({std::abs(in_box.x), std::abs(in_box.y), std::abs(in_box.z)}) < half);
+    }
+  }
+  EXPECT_EQ(shots, 10000);
+  EXPECT_EQ(escaped, 0);
 }
 
 // --- dynamic rigid bodies ---------------------------------------------------------------------------------------------------

@@ -68,7 +68,7 @@ def case_states_are_kept_and_made_once(program):
     done = program("bench", "--states", "deep/states", "--scene", "bed-1k", "--settle-only")
     assert done.stderr == "" and os.stat("deep/states/bed-1k-1.h5").st_mtime_ns == before.st_mtime_ns
     listed = program("bench", "--list", "--states", "deep/states").stdout.splitlines()
-    assert len(listed) == 8 and [line.split()[0] for line in listed if "state is there" in line] == ["bed-1k"]
+    assert len(listed) == 9 and [line.split()[0] for line in listed if "state is there" in line] == ["bed-1k"]
     # The same state, run by hand from the scene file.
     program.run(os.path.join(os.path.dirname(scene("drum")), "..", "profiling", "bench", "scenes", "bed.yaml"), "--set", "spheres_x=10",
                 "--set", "spheres_y=10", "--set", "particles.0.file.path=" + os.path.abspath("deep/states/bed-1k-1.h5"), "--end-time",

@@ -255,6 +255,31 @@ def case_overlap_beyond_the_limit(program):
                   "output.statistics_interval=10 us", code=4, says=["particle 0: overlap of 0.3", "allowed 0.3 (limits.overlap)"])
 
 
+def case_solver_short_of_its_tolerance(program):
+    """Of nonsmooth DEM: it says so on the terminal, in the log, in the summary and in the time series."""
+    nonsmooth = ["--method", "ndem", "--time-step", "1 ms"]
+    stack = ", ".join("{radius: 1 cm, position: [0, 0, %g]}" % (0.0099 + 0.0198 * k) for k in range(10))
+    done = program.small(LIST % stack, "solver={iterations: 3, tolerance: 1e-9}", "end_time=0.1", options=nonsmooth)
+    s = summary()
+    told = "%d of 100 steps stopped at 3 sweeps above the tolerance 1e-09 (greatest residual " % s["steps_unsolved"]
+    assert s["steps_unsolved"] > 50 and s["greatest_residual"] > 1e-9 and s["most_iterations"] == 3, s
+    contains(done.stderr, ["finished at t = 0.1", told])
+    contains(read("out", "log.txt"), [told])
+    header, *rows = [line.split(",") for line in read("out", "statistics.csv").splitlines()]
+    assert int(rows[-1][header.index("steps_unsolved [1]")]) == s["steps_unsolved"]
+    done = program.small(LIST % stack, "solver={iterations: 5000, tolerance: 1e-9}", options=nonsmooth, output="solved")
+    assert summary("solved")["steps_unsolved"] == 0 and "above the tolerance" not in done.stderr
+
+
+def case_nonsmooth_beyond_numbers(program):
+    nonsmooth = ["--method", "ndem", "--time-step", "1 ms", "--quiet", "--overwrite"]
+    program.small("gravity=[0, 0, -1e160]", options=nonsmooth, code=3, says=["time_step: none can be found"])
+    program.small(LIST % "{radius: 1 cm, position: [0, 0, 9 mm], angular_velocity: [0, 1e200, 0]}", options=nonsmooth, code=4,
+                  says=["error: t = 0 s", "not a number"])
+    program.small(LIST % "{radius: 1 cm, position: [0, 0, 9 mm], velocity: [1e6, 0, 0]}", "expected_speed=1", options=nonsmooth, code=4,
+                  says=["particle 0 at (", "left the bounds"])
+
+
 def case_body_gone_wild(program):
     block = "bodies=[{name: block, motion: dynamic, mass: 1, position: [0, 0, 0.5], %s, geometries: [{sphere: {radius: 1 cm}}]}]"
     program.small(block % "angular_velocity: [1e200, 1e200, 0]", "expected_speed=1", code=4, says=["t = 0 s", "body 'block'", "not a number"])

@@ -56,6 +56,34 @@ def case_hash_needs_neither_threads_nor_output(program):
     assert run("other", "--seed", "2") != hashes["1"], "the hash does not see another start"
 
 
+def case_nonsmooth_run(program):
+    """The same scene file by the other method, at its own step: what the solver did is told, and threads leave no trace."""
+    hashes = set()
+    for threads in (1, 2, 4):
+        done = program.run(*DRUM, "--method", "ndem", "--threads", threads, "--overwrite")
+        hashes.add(state_hash())
+        s = summary()
+        assert (s["method"], s["time_step"], s["steps"], s["steps_unsolved"], s["outcome"]) == ("ndem", 1e-3, 100, 0, "finished"), s
+        assert 0 < s["iterations"] <= s["most_iterations"] <= 500 and 0 < s["greatest_residual"] <= 1e-3 and s["contact_sweeps"] > 0
+        contains(done.stderr, ["sweeps a step"])
+        assert "above the tolerance" not in done.stderr
+        contains(read("out", "log.txt"), ["impact stage: in", "contact history: in"])
+        assert "contact_solve" in {k["name"] for k in s["kernels"]}
+    assert len(hashes) == 1, hashes
+    assert check_trajectory("out", 2) == s["frames"]
+    with open("out/statistics.csv", newline="") as text:
+        header, *rows = csv.reader(text)
+    assert {"solver_sweeps [1]", "solver_residual [1]", "impacts [1]", "steps_unsolved [1]"} <= set(header), header
+    program.run("out/scene.resolved.yaml", "--quiet", output="again")
+    assert state_hash("again") in hashes
+    contains(program("validate", scene("drum"), "--method", "ndem").stdout, ["scene 'drum' is sound", "5000 steps"])
+    lean = ["--set", "materials.pellet.friction=0", "--set", "materials.pellet.rolling_friction=0"]
+    for options, kernels in (([], 15), ([*lean, "--set", "materials.pellet.restitution=0", "--set", "materials.disc.restitution=0"], 14)):
+        text = program("graph", scene("drum"), "--method", "ndem", *options).stdout
+        contains(text, ["nonsmooth DEM: %d kernels" % kernels, "contact_solve", "impact stage"])
+        assert ("impact_solve" in text) == (not options)
+
+
 def drum(program):
     """A real run, with bodies, contacts, many particles and 6 frames."""
     program.run(*DRUM, "--set", "output.frame_interval=0.02", "--set", "output.contacts=true")
@@ -236,8 +264,6 @@ def case_wrong_usage(program):
                   ["run", "s.yaml", "--trace-steps", "5:6"], ["run", "s.yaml", "--trace", "t", "--trace-steps", "6:5"]):
         assert program(*words, code=2).stderr, words
     program("explain", "materials.colour", code=2, says=["colour"])
-    for verb in ("run", "graph", "validate"):
-        program(verb, "s.yaml", "--method", "ndem", code=3, says=["ndem", "not in this version"])
     assert os.listdir(".") == ["s.yaml"], "a refused run leaves nothing behind"
 
 

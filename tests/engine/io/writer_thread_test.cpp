@@ -53,6 +53,22 @@ TEST(WriterThread, PushBlocksWhileTwoJobsWait) {
   thread.finish();
 }
 
+TEST(WriterThread, DrainWaitsForTheJobThatIsBeingDone) {
+  std::atomic<int> done = 0;
+  WriterThread thread;
+  thread.drain();
+  for (int k = 0; k < 2; ++k)
+    thread.push([&] {
+      std::this_thread::sleep_for(10ms);
+      ++done;
+    });
+  thread.drain();
+  EXPECT_EQ(done, 2);
+  thread.push([] { throw IoError("disk full"); });
+  EXPECT_THROW(thread.drain(), IoError);
+  EXPECT_NO_THROW(thread.finish());
+}
+
 TEST(WriterThread, AFailureReachesThePusherAndStopsTheRest) {
   std::atomic<int> done = 0;
   WriterThread thread;
