@@ -60,14 +60,14 @@ def case_nonsmooth_run(program):
     """The same scene file by the other method, at its own step: what the solver did is told, and threads leave no trace."""
     hashes = set()
     for threads in (1, 2, 4):
-        done = program.run(*DRUM, "--method", "ndem", "--threads", threads, "--overwrite")
+        program.run(*DRUM, "--method", "ndem", "--threads", threads, "--overwrite")
         hashes.add(state_hash())
         s = summary()
         assert (s["method"], s["time_step"], s["steps"], s["steps_unsolved"], s["outcome"]) == ("ndem", 1e-3, 100, 0, "finished"), s
         assert 0 < s["iterations"] <= s["most_iterations"] <= 500 and 0 < s["greatest_residual"] <= 1e-3 and s["contact_sweeps"] > 0
-        contains(done.stderr, ["sweeps a step"])
-        assert "above the tolerance" not in done.stderr
-        contains(read("out", "log.txt"), ["impact stage: in", "contact history: in"])
+        log = read("out", "log.txt")
+        contains(log, ["impact stage: in", "contact history: in", "sweeps a step"])
+        assert "sweeps above the tolerance 0.001" not in log
         assert "contact_solve" in {k["name"] for k in s["kernels"]}
     assert len(hashes) == 1, hashes
     assert check_trajectory("out", 2) == s["frames"]
@@ -78,7 +78,7 @@ def case_nonsmooth_run(program):
     assert state_hash("again") in hashes
     contains(program("validate", scene("drum"), "--method", "ndem").stdout, ["scene 'drum' is sound", "5000 steps"])
     lean = ["--set", "materials.pellet.friction=0", "--set", "materials.pellet.rolling_friction=0"]
-    for options, kernels in (([], 15), ([*lean, "--set", "materials.pellet.restitution=0", "--set", "materials.disc.restitution=0"], 14)):
+    for options, kernels in (([], 16), ([*lean, "--set", "materials.pellet.restitution=0", "--set", "materials.disc.restitution=0"], 15)):
         text = program("graph", scene("drum"), "--method", "ndem", *options).stdout
         contains(text, ["nonsmooth DEM: %d kernels" % kernels, "contact_solve", "impact stage"])
         assert ("impact_solve" in text) == (not options)
