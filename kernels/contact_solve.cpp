@@ -118,7 +118,7 @@ void ImpactSolve::operator()(Parallel parallel, Read<&ContactBlocks::first_of_co
   for (HubContact& c : hubs) {
     c.impact_impulse = c.normal_impulse * c.normal + c.friction_impulse;
     c.normal_impulse = 0;
-    c.friction_impulse = c.rolling_impulse = {};
+    c.friction_impulse = {};
   }
   parallel(groups.size(), blocks_at_a_time, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b)
@@ -127,7 +127,7 @@ void ImpactSolve::operator()(Parallel parallel, Read<&ContactBlocks::first_of_co
         for (std::size_t l = 0; l < std::size_t(g.count); ++l)
           sources[b][k].impact_impulse[l] = g.normal_impulse[l] * at(g.normal, l) + at(g.friction_impulse, l);
         g.normal_impulse = {};
-        g.friction_impulse = g.rolling_impulse = {};
+        g.friction_impulse = {};
       }
   });
 }

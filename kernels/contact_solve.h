@@ -1,8 +1,7 @@
 // kernels/contact_solve.h - the velocities at the end of the step: sweeps of projected Gauss-Seidel until little changes (nonsmooth DEM).
 //
 // impact_solve   contacts that close faster than v_imp are turned round at once, u_n+ = -e u_n- [Newton's law; Moreau 1988], while
-//                no other contact may close. Rolling resistance acts in impacts too, as it does while a soft contact lasts: flows
-//                of many impacts are else too easy. (Its couple then is not in the torques that bodies report.)
+//                no other contact may close.
 // contact_solve  the rows of engine/contact_rows.h, from where kernels/contact_start.h begins.
 #pragma once
 #include "engine/access.h"

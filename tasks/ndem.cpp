@@ -47,10 +47,10 @@ template <bool rolling, class Space> void add_solver(Task& task, const World& w,
   task.add(ConstraintSetup<Space>{space, rows, m.pairs.count, coefficients(m), largest_radius(w)});
   if (e.dynamic_bodies) task.add(ConstraintSetupBody{rows, m.pairs.count, coefficients(m)});
   if (e.impacts)
-    task.add(ImpactSolve{e.friction ? options<true, true, rolling, false>(m, m.solver.impact_iterations)
-                                    : options<true, false, rolling, false>(m, m.solver.impact_iterations)});
+    task.add(ImpactSolve{e.friction ? options<true, true, false, false>(m, m.solver.impact_iterations)
+                                    : options<true, false, false, false>(m, m.solver.impact_iterations)});
   const bool limited = m.solver.separation_speed.has_value();
-  task.add(ContactStart<rolling>{h, m.gravity, m.solver.warm_start, m.solver.trusted_residual});
+  task.add(ContactStart<rolling>{h, m.gravity, m.solver.warm_start, std::max(m.solver.trusted_residual, m.solver.tolerance)});
   task.add(ContactSolve{limited ? contact_sweeps<rolling, true>(m, e) : contact_sweeps<rolling, false>(m, e)});
   task.add(ImpulseApplication<rolling>{h});
   if (e.dynamic_bodies) task.add(ImpulseApplicationBody{h});

@@ -375,21 +375,6 @@ TEST(ObliqueImpact, SpinningSphereOnAWallOrAHugeOne) {         // tests 6 and 8
     }
 }
 
-// No friction: only rolling resistance takes spin, mu_r R_eff P at the most.
-TEST(ObliqueImpact, RollingResistanceActsInAnImpact) {
-  const double e = 0.5, mu_r = 0.1, vn = 0.2;
-  for (const double surface : {0.01, 1.0}) {
-    Shot shot(e, 0);
-    shot.lab.model.pairs = one_pair(e, 0, mu_r);
-    shot.lab.floor();
-    shot.lab.sphere({0, 0, R + 1e-10}, {0, 0, -vn}, {0, surface / R, 3});
-    const auto s = shot.hit();
-    EXPECT_NEAR(spin(*s, 0).y * R, std::max(0.0, surface - 2.5 * mu_r * (1 + e) * vn), 1e-6);
-    EXPECT_EQ(spin(*s, 0).z, 3);                               // no twist
-    EXPECT_NEAR(velocity(*s, 0).z / (e * vn), 1, 1e-6);
-  }
-}
-
 TEST(ObliqueImpact, TwoSpheresThatDoNotSlipKeepTheirSpin) {    // test 7
   for (const double w : {0.17498, 1.0, 5.0, 22.860}) {
     Shot shot(0.5, 0.4);
