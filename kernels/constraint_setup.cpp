@@ -185,14 +185,14 @@ double gap_allowance(double radius_eff, double mass_eff, double velocity, const 
 }
 
 template <class Space>
-void ConstraintSetup<Space>::operator()(Parallel parallel, Read<&Particles::id> id, Read<&Particles::position> position, Read<&Particles::velocity> velocity,
-                                        Read<&Particles::angular_velocity> spin, Read<&Particles::radius> radius, Read<&Particles::mass> mass,
-                                        Read<&Particles::material> material, Read<&Incidence::first> first, Read<&Contacts::j> partner,
-                                        Read<&BodyIncidence::first> first_body, Read<&BodyContacts::geometry> geometry, Read<&BodyContacts::overlap> overlap,
-                                        Read<&BodyContacts::normal> normal, Read<&BodyContacts::curvature> curvature, Read<&Geometries::body> body,
-                                        Read<&Geometries::material> wall_material, Read<&Bodies::motion> motion, Read<&Bodies::pose> pose,
-                                        Read<&Bodies::velocity> body_velocity, Read<&Bodies::angular_velocity> body_spin, Read<&Bodies::mass> body_mass,
-                                        Resize<SolverBodies> bodies, Resize<ContactBlocks> blocks) const {
+void ConstraintSetup<Space>::operator()(Parallel parallel, Read<&Particles::id> id, Read<&Particles::position> position,
+    Read<&Particles::velocity> velocity, Read<&Particles::angular_velocity> spin, Read<&Particles::radius> radius,
+    Read<&Particles::mass> mass, Read<&Particles::material> material, Read<&Incidence::first> first, Read<&Contacts::j> partner,
+    Read<&BodyIncidence::first> first_body, Read<&BodyContacts::geometry> geometry, Read<&BodyContacts::overlap> overlap,
+    Read<&BodyContacts::normal> normal, Read<&BodyContacts::curvature> curvature, Read<&Geometries::body> body,
+    Read<&Geometries::material> wall_material, Read<&Bodies::motion> motion, Read<&Bodies::pose> pose,
+    Read<&Bodies::velocity> body_velocity, Read<&Bodies::angular_velocity> body_spin, Read<&Bodies::mass> body_mass,
+    Resize<SolverBodies> bodies, Resize<ContactBlocks> blocks) const {
   const std::size_t n = position.size();
   const double h = options.time_step;
   const std::size_t first_of_bodies = n + geometry.size();

@@ -10,7 +10,8 @@ inline constexpr std::size_t blocks_at_a_time = 8;           // of a thread
 template <class Visit> void by_colour(const Parallel& parallel, std::span<const Index> first_of_colour, int sweep, const Visit& visit) {
   for (std::size_t c = 0; c < block_colours; ++c) {
     const Index first = first_of_colour[c];
-    parallel.labelled({static_cast<std::uint16_t>(sweep), static_cast<std::uint16_t>(c)})(first_of_colour[c + 1] - first, blocks_at_a_time, [&](std::size_t begin, std::size_t end) {
+    const LoopLabel label{static_cast<std::uint16_t>(sweep), static_cast<std::uint16_t>(c)};
+    parallel.labelled(label)(first_of_colour[c + 1] - first, blocks_at_a_time, [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) visit(first + k);
     });
   }

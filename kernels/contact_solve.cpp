@@ -103,10 +103,11 @@ Outcome solve_near(std::span<const Index> impacts, std::span<const BlockNeighbou
 
 }  // namespace
 
-void ImpactSolve::operator()(Parallel parallel, Read<&ContactBlocks::first_of_colour> first_of_colour, Read<&ContactBlocks::impacts> impacts_of_block,
-                             Read<&ContactBlocks::neighbours> neighbours, Update<&ContactBlocks::groups> groups, Update<&ContactBlocks::sources> sources, Update<&ContactBlocks::change> change,
-                             Update<&HubContacts::contact> hubs, Read<&SolverBodies::inverse_inertia> inertia, Update<&SolverBodies::state> bodies, Write<&Solver::impacts> impacts, Write<&Solver::impact_sweeps> sweeps_done,
-                             Write<&Solver::impact_residual> residual, Update<&Solver::impacts_unsolved> unsolved) const {
+void ImpactSolve::operator()(Parallel parallel, Read<&ContactBlocks::first_of_colour> first_of_colour,
+    Read<&ContactBlocks::impacts> impacts_of_block, Read<&ContactBlocks::neighbours> neighbours, Update<&ContactBlocks::groups> groups,
+    Update<&ContactBlocks::sources> sources, Update<&ContactBlocks::change> change, Update<&HubContacts::contact> hubs,
+    Read<&SolverBodies::inverse_inertia> inertia, Update<&SolverBodies::state> bodies, Write<&Solver::impacts> impacts,
+    Write<&Solver::impact_sweeps> sweeps_done, Write<&Solver::impact_residual> residual, Update<&Solver::impacts_unsolved> unsolved) const {
   impacts[0] = std::accumulate(impacts_of_block.begin(), impacts_of_block.end(), std::int64_t{0}) +
                std::count_if(hubs.begin(), hubs.end(), [](const HubContact& c) { return c.impact; });
   const Outcome done = impacts[0] > 0 ? solve_near(impacts_of_block, neighbours, parallel, sweeps, {first_of_colour, groups, bodies, change, hubs, inertia})
@@ -132,10 +133,11 @@ void ImpactSolve::operator()(Parallel parallel, Read<&ContactBlocks::first_of_co
   });
 }
 
-void ContactSolve::operator()(Parallel parallel, Read<&ContactBlocks::first_of_colour> first_of_colour, Read<&ContactBlocks::contacts> contacts_of_block,
-                              Update<&ContactBlocks::groups> groups, Update<&ContactBlocks::change> change, Update<&HubContacts::contact> hubs,
-                              Read<&SolverBodies::inverse_inertia> inertia, Update<&SolverBodies::state> bodies, Write<&Solver::contacts> contacts,
-                              Write<&Solver::sweeps> sweeps_done, Write<&Solver::residual> residual, Write<&Solver::error_left> error_left, Update<&Solver::unsolved> unsolved) const {
+void ContactSolve::operator()(Parallel parallel, Read<&ContactBlocks::first_of_colour> first_of_colour,
+    Read<&ContactBlocks::contacts> contacts_of_block, Update<&ContactBlocks::groups> groups, Update<&ContactBlocks::change> change,
+    Update<&HubContacts::contact> hubs, Read<&SolverBodies::inverse_inertia> inertia, Update<&SolverBodies::state> bodies,
+    Write<&Solver::contacts> contacts, Write<&Solver::sweeps> sweeps_done, Write<&Solver::residual> residual,
+    Write<&Solver::error_left> error_left, Update<&Solver::unsolved> unsolved) const {
   const Outcome done = solve(parallel, sweeps, {first_of_colour, groups, bodies, change, hubs, inertia});
   contacts[0] = std::accumulate(contacts_of_block.begin(), contacts_of_block.end(), std::int64_t(hubs.size()));
   sweeps_done[0] = done.sweeps;

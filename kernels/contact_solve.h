@@ -23,9 +23,11 @@ struct ImpactSolve {
   SweepOptions sweeps;
 
   void operator()(Parallel parallel, Read<&ContactBlocks::first_of_colour> first_of_colour, Read<&ContactBlocks::impacts> impacts_of_block,
-                  Read<&ContactBlocks::neighbours> neighbours, Update<&ContactBlocks::groups> groups, Update<&ContactBlocks::sources> sources, Update<&ContactBlocks::change> change,
-                  Update<&HubContacts::contact> hubs, Read<&SolverBodies::inverse_inertia> inertia, Update<&SolverBodies::state> bodies, Write<&Solver::impacts> impacts, Write<&Solver::impact_sweeps> sweeps_done,
-                  Write<&Solver::impact_residual> residual, Update<&Solver::impacts_unsolved> unsolved) const;
+                  Read<&ContactBlocks::neighbours> neighbours, Update<&ContactBlocks::groups> groups,
+                  Update<&ContactBlocks::sources> sources, Update<&ContactBlocks::change> change, Update<&HubContacts::contact> hubs,
+                  Read<&SolverBodies::inverse_inertia> inertia, Update<&SolverBodies::state> bodies, Write<&Solver::impacts> impacts,
+                  Write<&Solver::impact_sweeps> sweeps_done, Write<&Solver::impact_residual> residual,
+                  Update<&Solver::impacts_unsolved> unsolved) const;
 };
 
 struct ContactSolve {
@@ -33,10 +35,11 @@ struct ContactSolve {
 
   SweepOptions sweeps;
 
-  void operator()(Parallel parallel, Read<&ContactBlocks::first_of_colour> first_of_colour, Read<&ContactBlocks::contacts> contacts_of_block,
-                  Update<&ContactBlocks::groups> groups, Update<&ContactBlocks::change> change, Update<&HubContacts::contact> hubs,
-                  Read<&SolverBodies::inverse_inertia> inertia, Update<&SolverBodies::state> bodies, Write<&Solver::contacts> contacts,
-                  Write<&Solver::sweeps> sweeps_done, Write<&Solver::residual> residual, Write<&Solver::error_left> error_left, Update<&Solver::unsolved> unsolved) const;
+  void operator()(Parallel parallel, Read<&ContactBlocks::first_of_colour> first_of_colour,
+                  Read<&ContactBlocks::contacts> contacts_of_block, Update<&ContactBlocks::groups> groups,
+                  Update<&ContactBlocks::change> change, Update<&HubContacts::contact> hubs, Read<&SolverBodies::inverse_inertia> inertia,
+                  Update<&SolverBodies::state> bodies, Write<&Solver::contacts> contacts, Write<&Solver::sweeps> sweeps_done,
+                  Write<&Solver::residual> residual, Write<&Solver::error_left> error_left, Update<&Solver::unsolved> unsolved) const;
 };
 
 }  // namespace skred

@@ -8,11 +8,11 @@ namespace skred {
 
 template <bool rolling>
 void ContactStart<rolling>::operator()(Parallel parallel, Read<&Particles::id> id, Read<&ContactBlocks::first_of_colour> first_of_colour,
-                                       Update<&ContactBlocks::groups> groups, Read<&ContactBlocks::sources> sources, Read<&Contacts::spring> impulse,
-                                       Read<&BodyContacts::spring> body_impulse, If<rolling, Read<&Contacts::rolling>> rolling_impulse,
-                                       If<rolling, Read<&BodyContacts::rolling>> body_rolling_impulse, Read<&RigidContacts::spring> rigid_impulse,
-                                       Update<&HubContacts::contact> hubs, Read<&SolverBodies::inverse_inertia> inertia, Update<&SolverBodies::state> bodies,
-                                       Read<&Solver::residual> residual, Read<&Solver::error_left> error_left) const {
+    Update<&ContactBlocks::groups> groups, Read<&ContactBlocks::sources> sources, Read<&Contacts::spring> impulse,
+    Read<&BodyContacts::spring> body_impulse, If<rolling, Read<&Contacts::rolling>> rolling_impulse,
+    If<rolling, Read<&BodyContacts::rolling>> body_rolling_impulse, Read<&RigidContacts::spring> rigid_impulse,
+    Update<&HubContacts::contact> hubs, Read<&SolverBodies::inverse_inertia> inertia, Update<&SolverBodies::state> bodies,
+    Read<&Solver::residual> residual, Read<&Solver::error_left> error_left) const {
   const double h = time_step;
   const auto for_each_contact = [&](std::size_t b, const auto& fetch_last, const auto& visit) {
     const auto& of_block = groups[b];

@@ -71,13 +71,13 @@ void finish(HubContact& c, std::span<SolverBody> bodies, std::span<const Inverse
 }  // namespace
 
 void ConstraintSetupBody::operator()(Read<&Particles::id> id, Read<&Particles::position> position, Read<&Particles::radius> radius,
-                                     Read<&Particles::material> material, Read<&BodyContacts::particle> particle, Read<&BodyContacts::geometry> geometry,
-                                     Read<&BodyContacts::overlap> overlap, Read<&BodyContacts::normal> normal, Read<&BodyContacts::curvature> curvature,
-                                     Read<&RigidContacts::geometry_a> geometry_a, Read<&RigidContacts::geometry_b> geometry_b, Read<&RigidContacts::point> point,
-                                     Read<&RigidContacts::normal> rigid_normal, Read<&RigidContacts::overlap> rigid_overlap,
-                                     Read<&RigidContacts::radius_eff> rigid_radius, Read<&Geometries::body> body, Read<&Geometries::material> body_material,
-                                     Read<&Bodies::motion> motion, Read<&Bodies::pose> pose, Read<&Bodies::inertia> inertia,
-                                     Update<&SolverBodies::state> bodies, Write<&SolverBodies::inverse_inertia> inverse_inertia, Resize<HubContacts> hubs) const {
+    Read<&Particles::material> material, Read<&BodyContacts::particle> particle, Read<&BodyContacts::geometry> geometry,
+    Read<&BodyContacts::overlap> overlap, Read<&BodyContacts::normal> normal, Read<&BodyContacts::curvature> curvature,
+    Read<&RigidContacts::geometry_a> geometry_a, Read<&RigidContacts::geometry_b> geometry_b, Read<&RigidContacts::point> point,
+    Read<&RigidContacts::normal> rigid_normal, Read<&RigidContacts::overlap> rigid_overlap, Read<&RigidContacts::radius_eff> rigid_radius,
+    Read<&Geometries::body> body, Read<&Geometries::material> body_material, Read<&Bodies::motion> motion, Read<&Bodies::pose> pose,
+    Read<&Bodies::inertia> inertia, Update<&SolverBodies::state> bodies, Write<&SolverBodies::inverse_inertia> inverse_inertia,
+    Resize<HubContacts> hubs) const {
   const double h = options.time_step;
   const std::size_t first_of_bodies = bodies.size() - motion.size();
   for (std::size_t b = 0; b < motion.size(); ++b) {
@@ -186,10 +186,10 @@ void sweep_hubs(std::span<HubContact> hubs, std::span<SolverBody> bodies, std::s
 }
 
 void ImpulseApplicationBody::operator()(Read<&HubContacts::contact> hubs, Read<&SolverBodies::state> state, Read<&Bodies::motion> motion,
-                                        Update<&Bodies::velocity> velocity, Update<&Bodies::angular_velocity> spin,
-                                        Update<&BodyContacts::force> body_force, Update<&BodyContacts::spring> body_impulse,
-                                        Update<&BodyContacts::rolling> body_rolling_impulse, Update<&BodyContacts::rolling_torque> body_rolling_torque,
-                                        Write<&RigidContacts::force> rigid_force, Write<&RigidContacts::spring> rigid_impulse) const {
+    Update<&Bodies::velocity> velocity, Update<&Bodies::angular_velocity> spin, Update<&BodyContacts::force> body_force,
+    Update<&BodyContacts::spring> body_impulse, Update<&BodyContacts::rolling> body_rolling_impulse,
+    Update<&BodyContacts::rolling_torque> body_rolling_torque, Write<&RigidContacts::force> rigid_force,
+    Write<&RigidContacts::spring> rigid_impulse) const {
   const std::size_t first_of_bodies = state.size() - motion.size();
   for (std::size_t b = 0; b < motion.size(); ++b) {
     if (motion[b] != Motion::dynamic) continue;

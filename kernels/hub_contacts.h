@@ -42,10 +42,11 @@ struct ImpulseApplicationBody {
 
   double time_step;   // h [s] > 0
 
-  void operator()(Read<&HubContacts::contact> hubs, Read<&SolverBodies::state> state, Read<&Bodies::motion> motion, Update<&Bodies::velocity> velocity,
-                  Update<&Bodies::angular_velocity> spin, Update<&BodyContacts::force> body_force, Update<&BodyContacts::spring> body_impulse,
-                  Update<&BodyContacts::rolling> body_rolling_impulse, Update<&BodyContacts::rolling_torque> body_rolling_torque,
-                  Write<&RigidContacts::force> rigid_force, Write<&RigidContacts::spring> rigid_impulse) const;
+  void operator()(Read<&HubContacts::contact> hubs, Read<&SolverBodies::state> state, Read<&Bodies::motion> motion,
+                  Update<&Bodies::velocity> velocity, Update<&Bodies::angular_velocity> spin, Update<&BodyContacts::force> body_force,
+                  Update<&BodyContacts::spring> body_impulse, Update<&BodyContacts::rolling> body_rolling_impulse,
+                  Update<&BodyContacts::rolling_torque> body_rolling_torque, Write<&RigidContacts::force> rigid_force,
+                  Write<&RigidContacts::spring> rigid_impulse) const;
 };
 
 }  // namespace skred

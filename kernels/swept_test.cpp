@@ -40,12 +40,11 @@ Free free_path(const Shape& shape, const Vec3& x, const Vec3& d, double radius, 
 
 }  // namespace
 
-void SweptTest::operator()(Parallel parallel, Read<&Particles::position> position, Read<&Particles::radius> radius, Update<&Particles::velocity> velocity,
-                           Read<&BodyIncidence::first> first, Read<&BodyContacts::geometry> geometry, Read<&BodyContacts::slot> slot,
-                           Read<&BodyContacts::first_triangle> first_triangle, Read<&BodyContacts::triangle_count> triangle_count,
-                           Read<&Triangles::triangle> triangle, Read<&Geometries::body> body, Read<&Geometries::shape> shape,
-                           Read<&Geometries::local> local, Read<&Bodies::pose> pose, Read<&Bodies::velocity> body_velocity,
-                           Read<&Bodies::angular_velocity> body_spin) const {
+void SweptTest::operator()(Parallel parallel, Read<&Particles::position> position, Read<&Particles::radius> radius,
+    Update<&Particles::velocity> velocity, Read<&BodyIncidence::first> first, Read<&BodyContacts::geometry> geometry,
+    Read<&BodyContacts::slot> slot, Read<&BodyContacts::first_triangle> first_triangle, Read<&BodyContacts::triangle_count> triangle_count,
+    Read<&Triangles::triangle> triangle, Read<&Geometries::body> body, Read<&Geometries::shape> shape, Read<&Geometries::local> local,
+    Read<&Bodies::pose> pose, Read<&Bodies::velocity> body_velocity, Read<&Bodies::angular_velocity> body_spin) const {
   constexpr double far = 0.4;                                // of a radius: less cannot take the centre through a wall
   constexpr int most_walls = 8;                              // met one after the other
   parallel(position.size(), 4096, [&](std::size_t begin, std::size_t end) {
