@@ -27,7 +27,11 @@ void write_start(const BenchScene& s, const fs::path& to) {
 
 struct Removed {                                             // at the end, whatever comes between
   fs::path path;
-  ~Removed() { ::unlink(path.c_str()); }
+  ~Removed() {                                               // and what a process left unfinished beside it
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(path.parent_path(), ignored))
+      if (entry.path().filename().string().starts_with(path.filename().string())) fs::remove(entry.path(), ignored);
+  }
 };
 
 void run(const BenchScene& s, const Scene& scene, const fs::path& to, int threads) {
