@@ -194,16 +194,15 @@ void ContactGeometryBody<ahead>::operator()(Parallel parallel, Read<&BodyContact
       const Vec3 x = to_local(world[g], position[p]);
       if (const Mesh* mesh = mesh_of(shape[g])) {
         const auto near = triangle.subspan(first_triangle[c], triangle_count[c]);
-        MeshContacts touched = mesh->touch(x, radius[p], near);
+        double reach = 0;
         if constexpr (ahead) {
           const Index b = body[g];
           const Vec3 v = velocity[p] - body_velocity[b] - cross(body_spin[b], position[p] - pose[b].position);
-          const double reach = time_step * norm(v) + fall;
-          if (reach > seen_late * radius[p]) {               // else it is soon enough to see the wall when it is touched
-            touched = mesh->touch(x, radius[p] + reach, near);
-            for (std::size_t k = 0; k < touched.count; ++k) touched.at[k].overlap -= reach;
-          }
+          reach = time_step * norm(v) + fall;
+          if (reach <= seen_late * radius[p]) reach = 0;     // it is soon enough to see the wall when it is touched
         }
+        MeshContacts touched = mesh->touch(x, radius[p] + reach, near);
+        for (std::size_t k = 0; k < touched.count; ++k) touched.at[k].overlap -= reach;
         assign_slots(touched, world[g], &overlap[c], &normal[c]);
         continue;
       }

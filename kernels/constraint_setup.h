@@ -25,12 +25,17 @@ struct RowOptions {
   double damping_steps;      // n_s [1] >= 0: contacts relax within this many steps at the fastest: tau = max(n_s h, tau of the dashpot)
   double impact_speed;       // v_imp [m/s]: faster approach is an impact, which the pair's restitution turns round
   Vec3 gravity;              // [m/s^2]
-  bool impacts, rolling;     // is there an impact stage, are there rolling rows
+  bool impacts;              // is there an impact stage
 };
 
 // S and Y of a normal row (engine/contact_rows.h); both 0 for a gap.
 struct NormalRow { double compliance = 0, velocity_factor = 0; };
 NormalRow normal_row(double overlap, double radius_eff, double mass_eff, const RowCoefficients&, const RowOptions&);
+
+// b of a normal row, from u_n before gravity [m/s].
+inline double normal_bias(double overlap, double allowance, double velocity_factor, double velocity, double time_step) {
+  return overlap > 0 ? 16.0 / 5.0 * (velocity_factor / time_step) * overlap + velocity_factor * velocity : (overlap - allowance) / time_step;
+}
 
 // Whether the impact stage turns a contact round: it closes faster than v_imp, and within the step.
 bool is_impact(double overlap, double velocity, const RowCoefficients&, const RowOptions&);

@@ -30,8 +30,8 @@ void ContactStart<rolling>::operator()(Parallel parallel, Read<&Particles::id> i
   parallel(groups.size(), blocks_at_a_time, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b)
       for_each_contact(b, [](Index) {}, [&](ContactGroup& g, const GroupSource& s, std::size_t l) {
-        const double u_n = dot(bodies[g.a[l]].linear.v - bodies[g.b[l]].linear.v, at(g.normal, l)), factor = s.velocity_factor[l];
-        g.bias[l] = s.overlap[l] > 0 ? 16.0 / 5.0 * (factor / h) * s.overlap[l] + factor * u_n : (s.overlap[l] - s.allowance[l]) / h;
+        const double u_n = dot(bodies[g.a[l]].linear.v - bodies[g.b[l]].linear.v, at(g.normal, l));
+        g.bias[l] = normal_bias(s.overlap[l], s.allowance[l], s.velocity_factor[l], u_n, h);
       });
   });
   set_hub_biases(hubs, bodies, h);
@@ -48,37 +48,35 @@ void ContactStart<rolling>::operator()(Parallel parallel, Read<&Particles::id> i
     __builtin_prefetch(impulse.data() + c);
     if constexpr (rolling) __builtin_prefetch(rolling_impulse.data() + c);
   };
-  if (warm_start)
-    by_colour(parallel, first_of_colour, 0, [&](std::size_t b) {
-      for_each_contact(b, fetch_impulses, [&](ContactGroup& g, const GroupSource& s, std::size_t l) {
-        if (s.impact[l]) return;
-        const Index c = s.contact[l];
-        const Vec3 n = at(g.normal, l), before = share * (s.of_body[l] ? body_impulse[c] : impulse[c]);
-        const double p_n = std::max(0.0, dot(before, n)), p_before = dot(before, n);
-        Vec3 p_t = before - p_before * n;
-        p_t *= reduction(p_t, g.friction[l] * p_n);
-        g.normal_impulse[l] = p_n;
-        put(p_t, g.friction_impulse, l);
-        SolverBody &a = bodies[g.a[l]], &other = bodies[g.b[l]];
-        const Vec3 p = p_n * n + p_t, couple = cross(n, p_t);
-        a.linear.v += a.linear.s * p;
-        other.linear.v -= other.linear.s * p;
-        a.angular.v -= (a.angular.s * g.arm_a[l]) * couple;
-        other.angular.v -= (other.angular.s * g.arm_b[l]) * couple;
-        if constexpr (rolling) {
-          Vec3 moment = in_tangent_plane(share * (s.of_body[l] ? body_rolling_impulse[c] : rolling_impulse[c]), n);
-          moment *= reduction(moment, g.rolling_arm[l] * p_n);
-          put(moment, g.rolling_impulse, l);
-          a.angular.v += a.angular.s * moment;
-          other.angular.v -= other.angular.s * moment;
-        }
-      });
+  if (!warm_start) return;
+  by_colour(parallel, first_of_colour, 0, [&](std::size_t b) {
+    for_each_contact(b, fetch_impulses, [&](ContactGroup& g, const GroupSource& s, std::size_t l) {
+      if (s.impact[l]) return;
+      const Index c = s.contact[l];
+      const Vec3 n = at(g.normal, l), before = share * (s.of_body[l] ? body_impulse[c] : impulse[c]);
+      const double p_n = std::max(0.0, dot(before, n)), p_before = dot(before, n);
+      Vec3 p_t = before - p_before * n;
+      p_t *= reduction(p_t, g.friction[l] * p_n);
+      g.normal_impulse[l] = p_n;
+      put(p_t, g.friction_impulse, l);
+      SolverBody &a = bodies[g.a[l]], &other = bodies[g.b[l]];
+      const Vec3 p = p_n * n + p_t, couple = cross(n, p_t);
+      a.linear.v += a.linear.s * p;
+      other.linear.v -= other.linear.s * p;
+      a.angular.v -= (a.angular.s * g.arm_a[l]) * couple;
+      other.angular.v -= (other.angular.s * g.arm_b[l]) * couple;
+      if constexpr (rolling) {
+        Vec3 moment = in_tangent_plane(share * (s.of_body[l] ? body_rolling_impulse[c] : rolling_impulse[c]), n);
+        moment *= reduction(moment, g.rolling_arm[l] * p_n);
+        put(moment, g.rolling_impulse, l);
+        a.angular.v += a.angular.s * moment;
+        other.angular.v -= other.angular.s * moment;
+      }
     });
+  });
 
-  if (warm_start) {
-    if constexpr (rolling) warm_start_hubs(hubs, bodies, inertia, share, body_impulse, body_rolling_impulse, rigid_impulse);
-    else warm_start_hubs(hubs, bodies, inertia, share, body_impulse, {}, rigid_impulse);
-  }
+  if constexpr (rolling) warm_start_hubs(hubs, bodies, inertia, share, body_impulse, body_rolling_impulse, rigid_impulse);
+  else warm_start_hubs(hubs, bodies, inertia, share, body_impulse, {}, rigid_impulse);
 }
 
 template struct ContactStart<true>;

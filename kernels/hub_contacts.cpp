@@ -130,7 +130,7 @@ void set_hub_biases(std::span<HubContact> hubs, std::span<const SolverBody> bodi
   for (HubContact& c : hubs) {
     const auto velocity = [&](Index k, const Vec3& arm) { return bodies[k].linear.v + cross(bodies[k].angular.v, arm); };
     const double u_n = dot(velocity(c.a, c.arm_a) - velocity(c.b, c.arm_b), c.normal);
-    c.bias = c.overlap > 0 ? 16.0 / 5.0 * (c.velocity_factor / h) * c.overlap + c.velocity_factor * u_n : (c.overlap - c.allowance) / h;
+    c.bias = normal_bias(c.overlap, c.allowance, c.velocity_factor, u_n, h);
   }
 }
 

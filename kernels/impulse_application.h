@@ -3,7 +3,7 @@
 // Forces are impulses divided by the step. Contacts keep their impulses as history: the next solve starts from them.
 #pragma once
 #include <algorithm>
-#include "engine/access.h"
+#include "kernels/contact_blocks.h"
 
 namespace skred {
 
@@ -33,19 +33,18 @@ template <bool rolling> struct ImpulseApplication {
     clear(pair_force), clear(impulse), clear(rolling_impulse);
     clear(body_force), clear(body_impulse), clear(body_rolling_impulse), clear(body_rolling_torque);
 
-    parallel(groups.size(), 8, [&](std::size_t first, std::size_t last) {
+    parallel(groups.size(), blocks_at_a_time, [&](std::size_t first, std::size_t last) {
       for (std::size_t b = first; b < last; ++b)
         for (std::size_t k = 0; k < groups[b].size(); ++k) {
           const ContactGroup& g = groups[b][k];
           const GroupSource& s = sources[b][k];
           for (std::size_t l = 0; l < std::size_t(g.count); ++l) {
             const Index c = s.contact[l];
-            const Vec3 p = g.normal_impulse[l] * Vec3{g.normal.x[l], g.normal.y[l], g.normal.z[l]} +
-                           Vec3{g.friction_impulse.x[l], g.friction_impulse.y[l], g.friction_impulse.z[l]};
+            const Vec3 p = g.normal_impulse[l] * at(g.normal, l) + at(g.friction_impulse, l);
             (s.of_body[l] ? body_force[c] : pair_force[c]) = per_step * (p + s.impact_impulse[l]);
             (s.of_body[l] ? body_impulse[c] : impulse[c]) = p;
             if constexpr (rolling) {
-              const Vec3 moment{g.rolling_impulse.x[l], g.rolling_impulse.y[l], g.rolling_impulse.z[l]};
+              const Vec3 moment = at(g.rolling_impulse, l);
               (s.of_body[l] ? body_rolling_impulse[c] : rolling_impulse[c]) = moment;
               if (s.of_body[l]) body_rolling_torque[c] = per_step * moment;
             }

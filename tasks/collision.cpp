@@ -38,7 +38,7 @@ void add_collision(Task& task, const World& w, const Model& m, const Effects& e,
     task.add(BroadphaseBody{margins_of(w, m).walls, columns});
     if (columns.spring || columns.rolling) add_hashing<ContactHashingBody>(task, columns);
     else if (e.meshes) task.add(ContactHashingBody<false, false>{});
-    if (m.method == Method::ndem) task.add(ContactGeometryBody<true>{m.time_step, m.time_step * m.time_step * norm(m.gravity)});
+    if (m.method == Method::ndem) task.add(ContactGeometryBody<true>{m.time_step, step_ahead(w, m).fall});
     else task.add(ContactGeometryBody<false>{});
   }
 }

@@ -43,7 +43,7 @@ template <bool rolling, class Space> void add_solver(Task& task, const World& w,
     task.add(InitialForces<Space, rolling>{space, m.pairs.count, coefficients(m)});
     return;
   }
-  const RowOptions rows{h, m.solver.damping_steps, impact_speed_of(m), m.gravity, e.impacts, rolling};
+  const RowOptions rows{h, m.solver.damping_steps, impact_speed_of(m), m.gravity, e.impacts};
   task.add(ConstraintSetup<Space>{space, rows, m.pairs.count, coefficients(m), largest_radius(w)});
   if (e.dynamic_bodies) task.add(ConstraintSetupBody{rows, m.pairs.count, coefficients(m)});
   if (e.impacts)

@@ -36,6 +36,22 @@ inline std::vector<double> pair_forces(const Simulation& s) {  // by id of the l
   return out;
 }
 
+// How far the floor's force on spheres of a given weight [N] is off after so many sweeps of one step, relative to it.
+inline double floor_error(NonsmoothLab& lab, int sweeps, double weight) {
+  lab.model.solver.iterations = sweeps;
+  auto s = lab.build();
+  s->start();
+  s->step();
+  return std::abs(measure(*s).body_normal_force / weight - 1);
+}
+
+// The least number of sweeps, up to `most`, that brings it down to 1e-3.
+inline int sweeps_needed(NonsmoothLab& lab, int most, double weight) {
+  int low = 1, high = most;
+  while (high - low > 1) (floor_error(lab, (low + high) / 2, weight) > 1e-3 ? low : high) = (low + high) / 2;
+  return high;
+}
+
 // Heights at which a column of n equal spheres on a floor is at rest.
 inline std::vector<double> column_at_rest(const Lab& lab, int n) {
   std::vector<double> z;

@@ -210,16 +210,7 @@ TEST(Nonsmooth, SweepsOfARigidColumnGrowWithTheSquareOfItsHeight) {
     for (int k = 0; k < n; ++k) lab.sphere({0, 0, R - 1e-12 + k * (2 * R - 1e-12)});
     lab.model.solver.warm_start = false;
     lab.model.solver.tolerance = 0;
-    const auto error = [&](int sweeps) {
-      lab.model.solver.iterations = sweeps;
-      auto s = lab.build();
-      s->start();
-      s->step();
-      return std::abs(measure(*s).body_normal_force / (n * m * g) - 1);
-    };
-    int low = 1, high = 3 * expected;
-    while (high - low > 1) (error((low + high) / 2) > 1e-3 ? low : high) = (low + high) / 2;
-    EXPECT_NEAR(high, expected, 0.05 * expected) << n;
+    EXPECT_NEAR(sweeps_needed(lab, 3 * expected, n * m * g), expected, 0.05 * expected) << n;
   }
 }
 
