@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include "engine/io/io_error.h"
 #include "profiling/bench/command.h"
+#include "scenes/check/command.h"
 #include "scenes/completion.h"
 #include "scenes/errors.h"
 #include "scenes/failure.h"
@@ -90,6 +91,9 @@ int run_program(int argc, char** argv) {
   BenchCommand bench;
   CLI::App* bench_verb = bench.add_to(app);
 
+  CheckCommand check;
+  CLI::App* check_verb = check.add_to(app);
+
   CLI::App* schema_verb = app.add_subcommand("schema", "print the JSON Schema of scene files, for editors");
   CLI::App* models_verb = app.add_subcommand("models", "list the contact models with parameters, units and sources");
   CLI::App* explain_verb = app.add_subcommand("explain", "explain a key of scene files, e.g. materials.youngs_modulus");
@@ -114,6 +118,7 @@ int run_program(int argc, char** argv) {
     return run_scene(on.scene(), run);
   }
   if (*bench_verb) return bench.run();
+  if (*check_verb) return check.run();
   if (*graph_verb) {
     const Scene scene = on.scene();
     std::cout << (format == "text" ? graph_text(scene) : format == "dot" ? graph_dot(scene) : graph_svg(scene));

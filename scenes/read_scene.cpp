@@ -72,6 +72,7 @@ Scene parse_scene(const std::string& text, const std::string& path, const ReadOp
   scene.file = path;
   scene_keys().read(reader, root, scene, false);
   diagnostics.throw_if_any();
+  scene.parameters = reader.number_parameters();
   if (options.time_step) scene.solver_time_step.reset();     // an option goes before the file
   if (scene.name.empty()) scene.name = default_name(path);
   return scene;

@@ -52,6 +52,8 @@ class Reader {
   // Whether a list item with this `if:` is kept: every parameter named there has the value, or one of the list of values.
   bool holds(const Node& condition);
 
+  const std::map<std::string, double>& number_parameters() const { return numbers_; }
+
  private:
   std::optional<double> evaluate_at(const Node&);
   std::optional<ParameterValue> parameter_value(const Node&);

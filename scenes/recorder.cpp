@@ -70,7 +70,7 @@ const Measures& Recorder::statistics() {
   const Ticks end = Timeline::now();
   sim_.timeline().chunk(0, sample_, begin, end, 1);
   sim_.timeline().call(0, sample_, begin, end, 1);
-  writer_.push([r = row(last_), to = series_] { to->append(r); });
+  writer_.push([r = statistics_row(scene_, sim_, last_), to = series_] { to->append(r); });
   return last_;
 }
 
@@ -79,11 +79,11 @@ void Recorder::finish() {
   writer_.finish();
 }
 
-StatisticsRow Recorder::row(const Measures& m) const {
+StatisticsRow statistics_row(const Scene& scene, const Simulation& sim, const Measures& m) {
   StatisticsRow r;
   const auto add = [&](const std::string& name, const char* unit, double v) { r.values.push_back({name, unit, v}); };
-  add("time", "s", sim_.time());
-  add("step", "1", double(sim_.steps_done()));
+  add("time", "s", sim.time());
+  add("step", "1", double(sim.steps_done()));
   add("kinetic_energy", "J", m.kinetic_energy);
   add("rotational_energy", "J", m.rotational_energy);
   add("potential_energy", "J", m.potential_energy);
@@ -96,9 +96,9 @@ StatisticsRow Recorder::row(const Measures& m) const {
   add("mean_speed", "m/s", m.mean_speed);
   add("max_speed", "m/s", m.max_speed);
   add("max_overlap_ratio", "1", m.max_overlap_ratio);
-  add("searches", "1", double(std::get<Search>(sim_.world()).count.data[0]));
-  if (scene_.method == Method::ndem) {
-    const Solver& s = std::get<Solver>(sim_.world());
+  add("searches", "1", double(std::get<Search>(sim.world()).count.data[0]));
+  if (scene.method == Method::ndem) {
+    const Solver& s = std::get<Solver>(sim.world());
     add("solver_sweeps", "1", double(s.sweeps.data[0]));
     add("solver_residual", "1", s.residual.data[0]);
     add("impacts", "1", double(s.impacts.data[0]));
@@ -107,7 +107,7 @@ StatisticsRow Recorder::row(const Measures& m) const {
     add("steps_unsolved", "1", double(s.unsolved.data[0]));
   }
   for (std::size_t b = 0; b < m.loads.size(); ++b) {
-    const std::string& body = scene_.bodies[b].name;
+    const std::string& body = scene.bodies[b].name;
     const auto add_vector = [&](const char* what, const char* unit, const Vec3& v) {
       add(body + "." + what + "_x", unit, v.x);
       add(body + "." + what + "_y", unit, v.y);

@@ -11,6 +11,9 @@
 
 namespace skred {
 
+// The row of statistics.csv of this moment.
+StatisticsRow statistics_row(const Scene&, const Simulation&, const Measures&);
+
 class Recorder {
  public:
   Recorder(const Scene&, Simulation&, const OutputFolder&);
@@ -24,8 +27,6 @@ class Recorder {
   std::int64_t frames() const { return frames_; }
 
  private:
-  StatisticsRow row(const Measures&) const;
-
   const Scene& scene_;
   Simulation& sim_;
   KernelId sample_, copy_, write_;

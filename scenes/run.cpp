@@ -21,7 +21,7 @@
 #include "scenes/progress.h"
 #include "scenes/recorder.h"
 #include "scenes/schema.h"
-#include "tasks/rigid_checks.h"
+#include "scenes/watch.h"
 
 namespace skred {
 
@@ -67,33 +67,8 @@ struct Run {
   std::int64_t steps = 0, every_frame = 0, every_row = 0;
   Measures last;
   std::int64_t reported_outside = 0;
-  double smallest_radius = 0;                                // [m]
   Sweeps sweeps;
 };
-
-std::string likely_cause(const Run& r) {
-  return fmt::format("likely causes: a time step that is too large ({:g} s), particles that overlapped or were squeezed far beyond the "
-                     "elastic range, a body that moves too fast", r.sim.model().time_step);
-}
-
-std::string when(const Run& r) { return fmt::format("t = {:g} s, step {}", r.sim.time(), r.sim.steps_done()); }
-
-// Dynamic bodies go where forces take them, like particles. Throws NumericalFailure.
-void check_bodies(const Run& r) {
-  const Bodies& b = std::get<Bodies>(r.sim.world());
-  for (std::size_t k = 0; k < b.rows(); ++k) {
-    if (b.motion.data[k] != Motion::dynamic) continue;
-    const Vec3 x = b.pose.data[k].position, v = b.velocity.data[k];
-    const auto fail = [&](const std::string& what) {
-      throw NumericalFailure(fmt::format("{}, body '{}' at ({:g}, {:g}, {:g}) m with ({:g}, {:g}, {:g}) m/s: {}; likely causes: a mass or "
-                                         "inertia too small for the time step ({:g} s), or a start that is too fast",
-                                         when(r), r.scene.bodies[k].name, x.x, x.y, x.z, v.x, v.y, v.z, what, r.sim.model().time_step));
-    };
-    if (!is_finite(x) || !is_finite(v) || !is_finite(b.angular_velocity.data[k])) fail("not a number");
-    if (!(norm(v) * r.sim.model().time_step <= r.smallest_radius))
-      fail(fmt::format("in one step it moves more than the smallest particle's radius ({:g} m), and through particles", r.smallest_radius));
-  }
-}
 
 // Tells of particles outside when the first is, and whenever their number has doubled: they may be many.
 void report_outside(Run& r) {
@@ -104,41 +79,9 @@ void report_outside(Run& r) {
   r.log.warn("t = {:g} s: {} particle{} outside the bounds", r.sim.time(), now, now == 1 ? "" : "s");
 }
 
-// Throws NumericalFailure.
-void check_trouble(Run& r) {
-  report_outside(r);
-  check_bodies(r);
-  const Search& s = std::get<Search>(r.sim.world());
-  if (s.trouble.data[0] == Trouble::none) return;
-  const Particles& p = std::get<Particles>(r.sim.world());
-  const Index id = s.culprit.data[0];
-  const Index row = rows_by_id(p)[id];
-  const Vec3 x = p.position.data[row], v = p.velocity.data[row];
-  const std::string where = fmt::format("{}, particle {} at ({:g}, {:g}, {:g}) m with ({:g}, {:g}, {:g}) m/s", when(r), id, x.x, x.y, x.z,
-                                        v.x, v.y, v.z);
-  switch (s.trouble.data[0]) {
-    case Trouble::not_finite: throw NumericalFailure(where + ": not a number; " + likely_cause(r));
-    case Trouble::too_fast:
-      if (r.scene.method == Method::ndem)
-        throw NumericalFailure(where + ": it goes so far in one step that it could meet two images of another particle; " + likely_cause(r));
-      throw NumericalFailure(where + fmt::format(": it moves more than half its radius ({:g} m) in one step; ", p.radius.data[row]) + likely_cause(r));
-    default:
-      throw NumericalFailure(where + ": it left the bounds of the scene; likely causes: a gap between walls, a wall that ends too low, "
-                                     "or a particle pressed through one (`bounds: {action: report}` goes on)");
-  }
-}
-
 void take_row(Run& r) {
   r.last = r.recorder.statistics();
-  if (r.last.max_overlap_ratio > r.scene.limits.overlap)
-    throw NumericalFailure(fmt::format("{}, particle {}: overlap of {:.3g} of the radius, allowed {:g} (limits.overlap); {}", when(r),
-                                       r.last.max_overlap_particle, r.last.max_overlap_ratio, r.scene.limits.overlap, likely_cause(r)));
-  if (const RigidOverlap o = greatest_rigid_overlap(r.sim.world()); o.ratio > r.scene.limits.overlap)
-    throw NumericalFailure(fmt::format("{}, bodies '{}' and '{}': overlap of {:.3g} of the smaller outer radius, allowed {:g} (limits.overlap); {}",
-                                       when(r), r.scene.bodies[o.body_a].name, r.scene.bodies[o.body_b].name, o.ratio,
-                                       r.scene.limits.overlap, likely_cause(r)));
-  if (!std::isfinite(r.last.kinetic_energy + r.last.rotational_energy))   // what the last step did, no later one sees
-    throw NumericalFailure(fmt::format("{}: the kinetic energy is not a number; {}", when(r), likely_cause(r)));
+  check_measures(r.scene, r.sim, r.last);
 }
 
 void count_for_trace(Run& r, const Measures& m) {
@@ -253,7 +196,8 @@ bool advance(Run& r, const InterruptGuard& interrupt) {
     r.sim.timeline().begin_step(n);                          // sampling and copying frames are part of the step that does them
     r.sim.step();
     r.sweeps.add(std::get<Solver>(r.sim.world()));
-    check_trouble(r);
+    report_outside(r);
+    check_trouble(r.scene, r.sim);
     if (n % r.every_row == 0 || n == r.steps) take_row(r);
     if (r.every_frame > 0 && n % r.every_frame == 0) r.recorder.frame();
     if (traced && n >= from && n < to) count_for_trace(r, measure(r.sim));
@@ -306,7 +250,6 @@ int run_scene(const Scene& scene, const RunOptions& options) {
   Recorder recorder(scene, sim, folder);
   Progress progress(scene.end_time, particles, options.quiet, [&](const std::string& line) { log.info(line); });
   Run r{scene, options, sim, recorder, log, progress};
-  r.smallest_radius = smallest_radius(sim.world());
   r.steps = steps_in(scene.end_time, sim.model().time_step);
   r.every_frame = scene.output.frame_interval > 0 ? steps_in(scene.output.frame_interval, sim.model().time_step) : 0;
   r.every_row = scene.output.statistics_interval > 0 ? steps_in(scene.output.statistics_interval, sim.model().time_step)
@@ -322,7 +265,8 @@ int run_scene(const Scene& scene, const RunOptions& options) {
     outcome = what;
   };
   try {
-    check_trouble(r);
+    report_outside(r);
+    check_trouble(scene, sim);
     take_row(r);
     recorder.frame();
     if (!advance(r, interrupt)) {

@@ -7,12 +7,14 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 #include "engine/geometry/shape.h"
 #include "engine/material.h"
+#include "scenes/check/spec.h"
 #include "tasks/method.h"
 
 namespace skred {
@@ -106,6 +108,8 @@ struct Scene {
   std::string name;                                  // letters, digits, '-', '_', '.'; default: the file's name
   std::string description;
   std::string file;                                  // where it was read from
+  std::map<std::string, double> parameters;          // those that are numbers
+  std::optional<CheckSpec> check;                    // what an experiment should show (skred check)
   Method method = Method::sdem;
   double end_time = 0;                               // [s] > 0
   std::optional<double> time_step;                   // [s]; empty: auto

@@ -2,6 +2,7 @@
 #include "scenes/schema.h"
 #include <algorithm>
 #include <cmath>
+#include "scenes/check/keys.h"
 #include "scenes/fill.h"
 #include "scenes/kinds.h"
 
@@ -287,6 +288,9 @@ const Section<Scene>& scene_keys() {
       key("method", Word<Method>{{{"sdem", Method::sdem}, {"ndem", Method::ndem}}}, &S::method, "Smooth or nonsmooth DEM."),
       property<S>("parameters", Parameters{}, [](const S&) { return std::optional<bool>(); }, [](S&, bool) {},
                   "Values that \"= expressions\" and `if` refer to, and that --set changes: --set a=10."),
+      property<S>("check", Map<CheckSpec>{check_keys}, [](const S&) { return std::optional<CheckSpec>(); },
+                  [](S& s, CheckSpec c) { s.check = std::move(c); },
+                  "What the scene should show, for `skred check`.").by_default("nothing is expected"),
       key("end_time", Number{"s", positive}, &S::end_time, "Simulated time.").required(),
       key("time_step", Or<Number>{"auto", {"s", positive}}, &S::time_step,
           "Time step; auto: from the stiffest pair and the expected overlap."),

@@ -1,0 +1,230 @@
+#include "scenes/check/formula.h"
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <stdexcept>
+#include <fmt/format.h>
+#include <muParser.h>
+#include "scenes/check/series.h"
+#include "scenes/diagnostic.h"
+
+namespace skred {
+namespace {
+
+[[noreturn]] void fail(const std::string& message) { throw std::invalid_argument(message); }
+
+Scope& scope_of(void* data) { return *static_cast<Scope*>(data); }
+
+std::size_t index(double value, std::size_t count, const char* what) {
+  if (!(value >= 0) || value != std::floor(value) || value >= double(count))
+    fail(count == 0 ? fmt::format("there is no {}", what) : fmt::format("{} {:g}: there are 0 .. {}", what, value, count - 1));
+  return static_cast<std::size_t>(value);
+}
+
+// Particles and bodies -------------------------------------------------------------------------------------------------
+
+const Simulation& state(void* data) {
+  const Scope& s = scope_of(data);
+  if (!s.sim) fail("the state of the particles is not known here");
+  return *s.sim;
+}
+
+Index row_of(void* data, double id) {
+  const Scope& s = scope_of(data);
+  const Particles& p = std::get<Particles>(state(data).world());
+  if (s.rows.size() != p.rows()) fail("the particles' rows are not known here");
+  return s.rows[index(id, p.rows(), "particle")];
+}
+
+template <auto column, auto component> double of_particle(void* data, double id) {
+  const Index row = row_of(data, id);
+  return (std::get<Particles>(state(data).world()).*column).data[row].*component;
+}
+template <auto column> double number_of_particle(void* data, double id) {
+  const Index row = row_of(data, id);
+  return (std::get<Particles>(state(data).world()).*column).data[row];
+}
+double speed_of(void* data, double id) { return norm(std::get<Particles>(state(data).world()).velocity.data[row_of(data, id)]); }
+
+double overlap_of(void* data, double i, double j) {
+  const Particles& p = std::get<Particles>(state(data).world());
+  const Index a = row_of(data, i), b = row_of(data, j);
+  Vec3 branch = p.position.data[a] - p.position.data[b];
+  if (const auto& space = state(data).model().periodic) branch = space->shortest(branch);
+  return p.radius.data[a] + p.radius.data[b] - norm(branch);
+}
+
+template <auto column, auto component> double of_body(void* data, double k) {
+  const Bodies& b = std::get<Bodies>(state(data).world());
+  return (b.*column).data[index(k, b.rows(), "body")].*component;
+}
+template <auto component> double body_position(void* data, double k) {
+  const Bodies& b = std::get<Bodies>(state(data).world());
+  return b.pose.data[index(k, b.rows(), "body")].position.*component;
+}
+
+// Series and values ------------------------------------------------------------------------------------------------------
+
+const Series& series(void* data, const char* name) {
+  const auto& all = scope_of(data).series;
+  const auto found = all.find(name);
+  if (found == all.end()) {
+    std::vector<std::string> known;
+    for (const auto& [n, s] : all) known.push_back(n);
+    fail(fmt::format("nothing called '{}' is tracked{}", name, suggestion(name, known)));
+  }
+  return found->second;
+}
+
+const std::vector<double>& values(void* data, const std::string& name) {
+  const auto& all = scope_of(data).runs;
+  const auto found = all.find(name);
+  if (found == all.end()) {
+    std::vector<std::string> known;
+    for (const auto& [n, v] : all) known.push_back(n);
+    fail(fmt::format("no value is called '{}'{}", name, suggestion(name, known)));
+  }
+  return found->second;
+}
+
+
+template <double (*of_series)(const Series&)> double by_name(void* data, const char* name) { return of_series(series(data, name)); }
+template <double (*of_series)(const Series&, double)> double by_name_at(void* data, const char* name, double x) { return of_series(series(data, name), x); }
+template <double (*of_series)(const Series&, double, double)> double by_name_in(void* data, const char* name, double from, double to) {
+  return of_series(series(data, name), from, to);
+}
+template <double (*of_values)(std::span<const double>)> double over(void* data, const char* name) { return of_values(values(data, name)); }
+
+template <double Line::* member> double of_line(void* data, const char* text) {
+  const std::string both = text, word = " against ";
+  const auto at = both.find(word);
+  if (at == std::string::npos) fail(fmt::format("'{}': expected \"v against w\"", both));
+  return straight_line(values(data, both.substr(at + word.size())), values(data, both.substr(0, at))).*member;
+}
+
+double of_run(void* data, const char* name, double run) {
+  const auto& v = values(data, name);
+  return v[index(run, v.size(), "run")];
+}
+
+const std::pair<double, double>& both_methods(void* data, const char* name) {
+  const auto& all = scope_of(data).methods;
+  const auto found = all.find(name);
+  if (found == all.end()) fail(fmt::format("no value is called '{}'", name));
+  return found->second;
+}
+
+void define_functions(mu::Parser& p, Scope& s) {
+  p.ClearConst();
+  p.EnableOptimizer(false);
+  p.DefineNameChars("0123456789_.abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ");   // floor.force_z
+  p.DefineConst("pi", std::numbers::pi);
+  p.DefineConst("deg", std::numbers::pi / 180);
+  p.DefineFun("floor", +[](double x) { return std::floor(x); });
+  p.DefineFun("ceil", +[](double x) { return std::ceil(x); });
+  p.DefineFun("round", +[](double x) { return std::round(x); });
+  const auto add = [&](const char* name, auto function) { p.DefineFunUserData(name, function, &s, false); };
+  add("x", &of_particle<&Particles::position, &Vec3::x>);
+  add("y", &of_particle<&Particles::position, &Vec3::y>);
+  add("z", &of_particle<&Particles::position, &Vec3::z>);
+  add("vx", &of_particle<&Particles::velocity, &Vec3::x>);
+  add("vy", &of_particle<&Particles::velocity, &Vec3::y>);
+  add("vz", &of_particle<&Particles::velocity, &Vec3::z>);
+  add("wx", &of_particle<&Particles::angular_velocity, &Vec3::x>);
+  add("wy", &of_particle<&Particles::angular_velocity, &Vec3::y>);
+  add("wz", &of_particle<&Particles::angular_velocity, &Vec3::z>);
+  add("fx", &of_particle<&Particles::force, &Vec3::x>);
+  add("fy", &of_particle<&Particles::force, &Vec3::y>);
+  add("fz", &of_particle<&Particles::force, &Vec3::z>);
+  add("radius", &number_of_particle<&Particles::radius>);
+  add("mass", &number_of_particle<&Particles::mass>);
+  add("speed", &speed_of);
+  add("overlap", &overlap_of);
+  add("body_x", &body_position<&Vec3::x>);
+  add("body_y", &body_position<&Vec3::y>);
+  add("body_z", &body_position<&Vec3::z>);
+  add("body_vx", &of_body<&Bodies::velocity, &Vec3::x>);
+  add("body_vy", &of_body<&Bodies::velocity, &Vec3::y>);
+  add("body_vz", &of_body<&Bodies::velocity, &Vec3::z>);
+  add("body_wx", &of_body<&Bodies::angular_velocity, &Vec3::x>);
+  add("body_wy", &of_body<&Bodies::angular_velocity, &Vec3::y>);
+  add("body_wz", &of_body<&Bodies::angular_velocity, &Vec3::z>);
+  add("first", &by_name<first_of>);
+  add("last", &by_name<last_of>);
+  add("at", &by_name_at<at_time>);
+  add("when_above", &by_name_at<when_above>);
+  add("when_below", &by_name_at<when_below>);
+  add("integral", &by_name_in<integral_over>);
+  add("swing", &by_name_in<swing_over>);
+  if (s.runs.empty()) {
+    add("least", &by_name<least_of>);
+    add("greatest", &by_name<greatest_of>);
+    add("mean", &by_name_in<mean_over>);
+    add("deviation", &by_name_in<deviation_over>);
+    add("slope", &by_name_in<slope_over>);
+  } else {
+    add("least", &over<least>);
+    add("greatest", &over<greatest>);
+    add("mean", &over<mean_of>);
+    add("deviation", &over<deviation_of>);
+    add("count", &over<count_of>);
+    add("slope", &of_line<&Line::slope>);
+    add("offset", &of_line<&Line::offset>);
+    add("fit", &of_line<&Line::determination>);
+    add("of", &of_run);
+  }
+  add("sdem", +[](void* data, const char* name) { return both_methods(data, name).first; });
+  add("ndem", +[](void* data, const char* name) { return both_methods(data, name).second; });
+}
+
+}  // namespace
+
+struct Formula::Parser { mu::Parser mu; };
+
+Formula::Formula(const std::string& text, Scope& scope, std::string what) : parser_(std::make_unique<Parser>()), text_(text), what_(std::move(what)) {
+  mu::Parser& p = parser_->mu;
+  try {
+    define_functions(p, scope);
+    for (auto& [name, value] : scope.numbers) p.DefineVar(name, &value);
+    p.SetExpr(text);
+    for (const auto& [name, variable] : p.GetUsedVar()) {
+      if (scope.numbers.contains(name)) continue;
+      std::vector<std::string> known;
+      for (const auto& [n, value] : scope.numbers) known.push_back(n);
+      fail(fmt::format("{}: unknown name '{}' in '{}'{}", what_, name, text, suggestion(name, known)));
+    }
+  } catch (const mu::Parser::exception_type& e) {
+    fail(fmt::format("{}: '{}': {}", what_, text, e.GetMsg()));
+  }
+}
+Formula::Formula(Formula&&) noexcept = default;
+Formula::~Formula() = default;
+
+double Formula::operator()() const {
+  try {
+    const double value = parser_->mu.Eval();
+    if (!std::isfinite(value)) fail(fmt::format("gives {}", value));
+    return value;
+  } catch (const mu::Parser::exception_type& e) {
+    fail(fmt::format("{}: '{}': {}", what_, text_, e.GetMsg()));
+  } catch (const std::invalid_argument& e) {
+    fail(fmt::format("{}: '{}': {}", what_, text_, e.what()));
+  }
+}
+
+std::vector<std::string> names_in(const std::string& formula) {
+  Scope none;
+  mu::Parser p;
+  std::vector<std::string> out;
+  try {
+    define_functions(p, none);
+    p.SetExpr(formula);
+    for (const auto& [name, variable] : p.GetUsedVar()) out.push_back(name);
+  } catch (const mu::Parser::exception_type&) {
+    return {};                                        // the formula itself will tell
+  }
+  return out;
+}
+
+}  // namespace skred
