@@ -64,6 +64,59 @@ template <auto component> double body_position(void* data, double k) {
   return b.pose.data[index(k, b.rows(), "body")].position.*component;
 }
 
+// Sums over particles by id, so that their bits do not depend on the order of the rows.
+template <class Add> void for_each_particle(void* data, Add add) {
+  const Particles& p = std::get<Particles>(state(data).world());
+  for (const Index row : scope_of(data).rows) add(p, row);
+}
+
+template <auto component> double centre(void* data) {
+  double sum = 0, mass = 0;
+  for_each_particle(data, [&](const Particles& p, Index r) { sum += p.mass.data[r] * (p.position.data[r].*component), mass += p.mass.data[r]; });
+  if (!(mass > 0)) fail("there is no particle");
+  return sum / mass;
+}
+
+template <auto component> double momentum(void* data) {
+  double sum = 0;
+  for_each_particle(data, [&](const Particles& p, Index r) { sum += p.mass.data[r] * (p.velocity.data[r].*component); });
+  return sum;
+}
+
+template <auto component> double angular_momentum(void* data) {
+  Vec3 sum;
+  for_each_particle(data, [&](const Particles& p, Index r) {
+    const double mass = p.mass.data[r], radius = p.radius.data[r];
+    sum += mass * cross(p.position.data[r], p.velocity.data[r]) + (0.4 * mass * radius * radius) * p.angular_velocity.data[r];
+  });
+  return sum.*component;
+}
+
+double temperature(void* data) {
+  const double count = double(scope_of(data).rows.size());
+  if (count == 0) fail("there is no particle");
+  Vec3 mean;
+  double square = 0;
+  for_each_particle(data, [&](const Particles& p, Index r) { mean += (1 / count) * p.velocity.data[r]; });
+  for_each_particle(data, [&](const Particles& p, Index r) { square += dot(p.velocity.data[r] - mean, p.velocity.data[r] - mean); });
+  return square / (3 * count);
+}
+
+template <class Of> double sum_in(void* data, double x0, double y0, double z0, double x1, double y1, double z1, Of of) {
+  double sum = 0;
+  for_each_particle(data, [&](const Particles& p, Index r) {
+    const Vec3 x = p.position.data[r];
+    if (x.x >= x0 && x.x < x1 && x.y >= y0 && x.y < y1 && x.z >= z0 && x.z < z1) sum += of(p.radius.data[r]);
+  });
+  return sum;
+}
+double count_in(void* data, double x0, double y0, double z0, double x1, double y1, double z1) {
+  return sum_in(data, x0, y0, z0, x1, y1, z1, [](double) { return 1.0; });
+}
+double volume_in(void* data, double x0, double y0, double z0, double x1, double y1, double z1) {
+  return sum_in(data, x0, y0, z0, x1, y1, z1, [](double radius) { return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius; });
+}
+
 // Series and values ------------------------------------------------------------------------------------------------------
 
 const Series& series(void* data, const char* name) {
@@ -150,6 +203,18 @@ void define_functions(mu::Parser& p, Scope& s) {
   add("body_wx", &of_body<&Bodies::angular_velocity, &Vec3::x>);
   add("body_wy", &of_body<&Bodies::angular_velocity, &Vec3::y>);
   add("body_wz", &of_body<&Bodies::angular_velocity, &Vec3::z>);
+  add("centre_x", &centre<&Vec3::x>);
+  add("centre_y", &centre<&Vec3::y>);
+  add("centre_z", &centre<&Vec3::z>);
+  add("momentum_x", &momentum<&Vec3::x>);
+  add("momentum_y", &momentum<&Vec3::y>);
+  add("momentum_z", &momentum<&Vec3::z>);
+  add("angular_momentum_x", &angular_momentum<&Vec3::x>);
+  add("angular_momentum_y", &angular_momentum<&Vec3::y>);
+  add("angular_momentum_z", &angular_momentum<&Vec3::z>);
+  add("temperature", &temperature);
+  add("count_in", &count_in);
+  add("volume_in", &volume_in);
   add("first", &by_name<first_of>);
   add("last", &by_name<last_of>);
   add("at", &by_name_at<at_time>);

@@ -5,6 +5,9 @@
 //   x y z  vx vy vz  wx wy wz  fx fy fz  radius  mass  speed       of a particle
 //   overlap(i, j)                                                   [m] of two particles
 //   body_x ..z  body_vx ..z  body_wx ..z                            of a body
+// Sums over the particles, by id: centre_x() ..z() [m] of mass, momentum_x() ..z() [kg m/s], angular_momentum_x() ..z() [kg m^2/s] about
+//   the origin, spins included, temperature() [m^2/s^2]: mean square of the velocities less their mean, over 3; and in a box, of the
+//   centres in it: count_in(x0, y0, z0, x1, y1, z1), volume_in(...) [m^3] of the spheres
 // Functions of what was tracked, by its name in quotes; times in s, from .. to both included:
 //   first("h") last("h") least("h") greatest("h") at("h", t)
 //   mean("h", from, to)  deviation("h", from, to)  slope("h", from, to)  integral("h", from, to)  swing("h", from, to)
