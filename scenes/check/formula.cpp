@@ -174,6 +174,8 @@ void define_functions(mu::Parser& p, Scope& s) {
   p.DefineNameChars("0123456789_.abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ");   // floor.force_z
   p.DefineConst("pi", std::numbers::pi);
   p.DefineConst("deg", std::numbers::pi / 180);
+  p.DefineConst("yes", 1);
+  p.DefineConst("no", 0);
   p.DefineFun("floor", +[](double x) { return std::floor(x); });
   p.DefineFun("ceil", +[](double x) { return std::ceil(x); });
   p.DefineFun("round", +[](double x) { return std::round(x); });

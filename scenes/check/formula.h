@@ -1,6 +1,6 @@
 // scenes/check/formula.h - formulas about a run: arithmetic by muParser on what the run has and did.
 //
-// Names: the scene's numeric parameters, t [s], time_step [s], step, every column of statistics.csv (kinetic_energy, contacts,
+// Names: yes (1), no (0), the scene's numeric parameters, t [s], time_step [s], step, every column of statistics.csv (kinetic_energy, contacts,
 // floor.force_z, ...; '-' in a name is written '_'), earlier values. Functions of the state, by the particle's id or the body's row:
 //   x y z  vx vy vz  wx wy wz  fx fy fz  radius  mass  speed       of a particle
 //   overlap(i, j)                                                   [m] of two particles

@@ -129,7 +129,7 @@ void check_expectation(Reader& r, const Node& node, Expectation& e) {
 const Section<Expectation>& expectation_keys() {
   using E = Expectation;
   static const Section<E> section{{
-      key("what", Text{}, &E::what, "What is looked at, with its unit.").required(),
+      key("what", Text{}, &E::what, "What is looked at, with its unit; a question, which ends with '?', is answered by yes (1) or no (0).").required(),
       key("value", Text{}, &E::value, "Formula: what is measured.").required(),
       key("expected", Text{}, &E::expected, "Formula: what it should be."),
       key("tolerance", Text{}, &E::tolerance, "Formula: greatest difference from what is expected; with %: of what is expected."),
@@ -158,6 +158,7 @@ const Section<CheckSpec>& check_keys() {
       key("methods", ListOf<Word<Method>>{{{{"sdem", Method::sdem}, {"ndem", Method::ndem}}}}, &C::methods, "Methods to run it with."),
       key("threads", ListOf<Integer<int>>{{1, 1024}}, &C::threads, "Thread counts to run it with; all must give the same bits."),
       key("slow", Flag{}, &C::slow, "Run only with --all."),
+      key("force", Flag{}, &C::force, "Run even with a time step beyond the limit, as run --force does."),
       key("seeds", Integer<int>{1, 1000}, &C::seeds, "Runs with the scene's seed and the seeds after it."),
       key("vary", Columns{}, &C::vary, "Parameters and their values; one run for each place in the lists, which have one length."),
       nested<C>("track_interval", Number{"s", non_negative}, [](auto& c) -> auto& { return c.track_interval; },

@@ -13,6 +13,14 @@ struct CheckedCase { CheckCase of; CaseResult result; };
 struct VerdictGroup { Verdict worst; std::size_t count = 1, failed = 0; };
 std::vector<VerdictGroup> grouped(const CaseResult&);
 
+// Questions, and their answers by run: the rows of a table.
+struct Answers {
+  struct Row { std::string label, method; std::vector<std::string> answers; };   // "yes", "no", "" where not asked
+  std::vector<std::string> questions;
+  std::vector<Row> rows;
+};
+Answers answers(const CheckedCase&);
+
 std::string text_of(const CheckedCase&, bool every_run);           // a case of the table
 std::string closing_text(const std::vector<CheckedCase>&);
 nlohmann::json json_of(const std::vector<CheckedCase>&);

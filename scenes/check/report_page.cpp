@@ -19,6 +19,7 @@ table { border-collapse: collapse; font-size: .88em; width: 100%; } th { text-al
 th, td { padding: .18em .6em .18em 0; vertical-align: top; border-bottom: 1px solid #eceef0; } td.n { font-variant-numeric: tabular-nums; white-space: nowrap; }
 .pass { color: #1a7f37; } .fail { color: #fff; background: #cf222e; padding: 0 .4em; border-radius: 3px; }
 .source, .note { color: #5b636d; font-size: .88em; margin: .1em 0 .5em; } .plots { display: flex; flex-wrap: wrap; gap: 8px; margin: .6em 0; }
+.answers { width: auto; margin: .8em 0; } td.yes { color: #1a7f37; font-weight: 600; } td.no { color: #9a6700; }
 pre { background: #f6f8fa; padding: .8em; overflow-x: auto; font-size: .82em; } summary { color: #0969da; cursor: pointer; font-size: .88em; }
 )css";
 
@@ -40,7 +41,7 @@ std::vector<Plot> plots_over_runs(const CheckedCase& c) {
   if (spec.vary.empty()) return plots;
   const std::string& parameter = spec.vary.front().first;
   for (std::size_t e = 0; e < spec.expect.size(); ++e) {
-    if (spec.expect[e].of != Expectation::Of::run) continue;
+    if (spec.expect[e].of != Expectation::Of::run || spec.expect[e].what.ends_with('?')) continue;
     Plot plot{spec.expect[e].what, parameter, {}};
     Curve expected{"expected", expected_colour, {}, {}, true, false, true};
     for (const Method m : spec.methods) {
@@ -98,11 +99,23 @@ std::string table_of(const CheckedCase& c) {
   return out + "</table>\n";
 }
 
+std::string answers_of(const CheckedCase& c) {
+  const Answers table = answers(c);
+  if (table.questions.empty()) return "";
+  std::string out = "<table class=\"answers\"><tr><th><th>method";
+  for (const std::string& q : table.questions) out += "<th>" + escaped(q);
+  for (const Answers::Row& r : table.rows) {
+    out += fmt::format("</tr>\n<tr><td>{}<td>{}", escaped(r.label), r.method);
+    for (const std::string& a : r.answers) out += fmt::format("<td class=\"{0}\">{0}", a);
+  }
+  return out + "</tr></table>\n";
+}
+
 std::string section_of(const CheckedCase& c) {
   const CheckSpec& spec = c.of.spec();
   std::string out = fmt::format("<h3 id=\"{0}\">{1} {2}</h3>\n<p class=\"source\"><code>{0}</code>, {3}. {4}</p>\n", escaped(c.of.name),
                                 escaped(spec.title), mark(c.result.passed()), readable_time(c.result.wall_time), escaped(spec.source));
-  out += table_of(c);
+  out += table_of(c) + answers_of(c);
   std::string pictures;
   for (const auto& plots : {plots_over_runs(c), plots_over_time(c)})
     for (const Plot& p : plots) pictures += svg_of(p);

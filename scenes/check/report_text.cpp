@@ -11,13 +11,22 @@ namespace skred {
 
 std::string number(double v) { return fmt::format("{:.5g}", v); }
 
+namespace {
+
+bool is_question(const std::string& what) { return what.ends_with('?'); }
+std::string yes_or_no(double v) { return v != 0 ? "yes" : "no"; }
+
+}  // namespace
+
 std::string expected_text(const Verdict& v) {
   const Reading& r = v.reading;
+  if (is_question(v.what)) return yes_or_no(r.expected);
   if (r.relation == '=') return r.tolerance > 0 ? fmt::format("{} +- {:.2g}", number(r.expected), r.tolerance) : number(r.expected);
   return fmt::format("{}= {}", r.relation, number(r.relation == '<' ? r.expected + r.tolerance : r.expected - r.tolerance));
 }
 
 std::string measured_text(const Verdict& v) {
+  if (is_question(v.what)) return yes_or_no(v.reading.measured);
   return v.confidence > 0 ? fmt::format("{} ({:.2g})", number(v.reading.measured), v.confidence) : number(v.reading.measured);
 }
 
@@ -75,6 +84,46 @@ std::string where(const VerdictGroup& g) {
 
 }  // namespace
 
+Answers answers(const CheckedCase& c) {
+  Answers out;
+  std::map<std::size_t, std::size_t> column;          // of an expectation
+  for (std::size_t e = 0; e < c.of.spec().expect.size(); ++e) {
+    const std::string& what = c.of.spec().expect[e].what;
+    if (!is_question(what)) continue;
+    const auto known = std::find(out.questions.begin(), out.questions.end(), what);
+    column[e] = std::size_t(known - out.questions.begin());
+    if (known == out.questions.end()) out.questions.push_back(what);
+  }
+  if (c.of.spec().vary.empty() || out.questions.empty()) return {};
+  for (const CaseRun& r : c.result.runs) {
+    Answers::Row row{r.label, method_word(r.method), std::vector<std::string>(out.questions.size())};
+    for (const Reading& reading : r.readings)
+      if (const auto at = column.find(reading.expectation); at != column.end()) row.answers[at->second] = yes_or_no(reading.measured);
+    if (r.threads == c.of.spec().threads.front()) out.rows.push_back(std::move(row));
+  }
+  return out;
+}
+
+namespace {
+
+std::string table_text(const Answers& table) {
+  if (table.questions.empty()) return "";
+  std::size_t label = 0;
+  for (const Answers::Row& r : table.rows) label = std::max(label, r.label.size());
+  std::string out = fmt::format("  {:<{}}        ", "", label);
+  for (const std::string& q : table.questions) out += fmt::format("  {}", q);
+  out += '\n';
+  for (const Answers::Row& r : table.rows) {
+    out += fmt::format("  {:<{}}  {:<6}", r.label, label, r.method);
+    for (std::size_t k = 0; k < table.questions.size(); ++k) out += fmt::format("  {:<{}}", r.answers[k], table.questions[k].size());
+    out.erase(out.find_last_not_of(' ') + 1);
+    out += '\n';
+  }
+  return out;
+}
+
+}  // namespace
+
 std::string text_of(const CheckedCase& c, bool every_run) {
   std::string out = fmt::format("{}: {} ({})\n", c.of.name, c.of.spec().title, readable_time(c.result.wall_time));
   if (every_run) {
@@ -82,7 +131,7 @@ std::string text_of(const CheckedCase& c, bool every_run) {
   } else {
     for (const VerdictGroup& g : grouped(c.result)) out += row_text(g.worst, where(g));
   }
-  return out;
+  return out + table_text(answers(c));
 }
 
 std::string closing_text(const std::vector<CheckedCase>& cases) {

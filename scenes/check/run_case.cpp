@@ -41,7 +41,7 @@ bool counts(const Expectation& e, std::size_t index, Scope& scope) {
 // Runs the scene to its end; throws what a run throws.
 void simulate(const Scene& scene, const std::function<bool()>& stop, CaseRun& out) {
   const CheckSpec& spec = *scene.check;
-  Prepared p = prepare(scene, false);
+  Prepared p = prepare(scene, spec.force);
   const std::int64_t steps = steps_in(scene.end_time, p.model.time_step);
   const std::int64_t every = spec.track_interval > 0 ? steps_in(spec.track_interval, p.model.time_step) : std::max<std::int64_t>(1, steps / 200);
   Simulation sim(std::move(p.world), std::move(p.model), out.threads);

@@ -16,7 +16,7 @@ struct NamedFormula { std::string name, formula; };
 struct Expectation {
   enum class Of { run, seeds, runs, methods };       // what the formulas speak of: one run, the mean over seeds, all runs, both methods
   enum class Methods { all, sdem, ndem };
-  std::string what;                                  // "speed once it rolls [m/s]"
+  std::string what;                                  // "speed once it rolls [m/s]"; one that ends with '?' is answered by yes (1) or no (0)
   std::string value;                                 // formula: what is measured
   std::string expected, at_most, at_least;           // formulas
   std::string tolerance = "0";                       // formula: greatest difference from `expected`; "0.5 %": of `expected`
@@ -31,6 +31,7 @@ struct CheckSpec {
   std::vector<Method> methods{Method::sdem, Method::ndem};
   std::vector<int> threads{1};                       // the case is run with each; the bits must be the same
   bool slow = false;                                 // only with --all
+  bool force = false;                                // runs even with a time step beyond the limit, as `run --force`
   int seeds = 1;                                     // runs with the scene's seed, and the seeds after it
   std::vector<std::pair<std::string, std::vector<std::string>>> vary;   // parameter: its value in each run; lists of one length
   double track_interval = 0;                         // [s] 0: 200 samples of the run
