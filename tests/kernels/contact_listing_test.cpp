@@ -107,8 +107,8 @@ TEST(ContactListing, OnlyTheColumnsThatLawsNeed) {
   World w = random_spheres(60, 3, 1);
   search(w, OpenSpace{});
   const Contacts& c = std::get<Contacts>(w);
-  for (int bits = 0; bits < 16; ++bits) {
-    const ContactColumns columns{bool(bits & 1), bool(bits & 2), bool(bits & 4), bool(bits & 8)};
+  for (int bits = 0; bits < 32; ++bits) {
+    const ContactColumns columns{bool(bits & 1), bool(bits & 2), bool(bits & 4), bool(bits & 8), true, bool(bits & 16)};
     const std::size_t n = listed(w, OpenSpace{}, columns).size();
     ASSERT_GT(n, 0u);
     EXPECT_EQ(c.force.data.size(), n);
@@ -116,6 +116,7 @@ TEST(ContactListing, OnlyTheColumnsThatLawsNeed) {
     EXPECT_EQ(c.spring.data.size(), columns.spring ? n : 0);
     EXPECT_EQ(c.rolling.data.size(), columns.rolling ? n : 0);
     EXPECT_EQ(c.arm_ratio.data.size(), columns.arm_ratio ? n : 0);
+    EXPECT_EQ(c.memory.data.size(), columns.memory ? n : 0);
   }
 }
 
