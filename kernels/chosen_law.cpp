@@ -12,8 +12,9 @@ void apply_law(const PairForces<ChosenLaw<tangential, rolling, remembers>, Chose
                const PairColumns& c, const Lanes& lanes) {
   using Law = ChosenLaw<tangential, rolling, remembers>;
   const std::size_t row = lanes[0];
-  ContactForce<double> f;
-  ContactMemory memory;                                      // not touching: no force, and the contact forgets
+  ContactForce<double> f;                                    // not touching: no force, and the contact forgets
+  Vec3 torque;
+  ContactMemory memory;
   if (pair.contact.overlap > 0) {
     const Index i = c.i[row], j = c.j[row];
     const double mass_i = c.mass[i], mass_j = c.mass[j], radius_i = c.radius[i], radius_j = c.radius[j];
@@ -22,9 +23,10 @@ void apply_law(const PairForces<ChosenLaw<tangential, rolling, remembers>, Chose
     if constexpr (rolling) contact.rolling_slip = in_tangent_plane(radius_i * c.spin[i] - radius_j * c.spin[j], contact.normal);
     if constexpr (remembers) memory = c.memory[row];
     f = evaluate(pairs.law, contact, pairs.kinds.coefficients[c.material[i] * pairs.kinds.materials + c.material[j]], pairs.time_step, memory);
+    if constexpr (Law::rotates) torque = -pair.arm_i * f.couple;
   }
   c.force[row] = f.force;
-  if constexpr (Law::rotates) c.torque[row] = -pair.arm_i * f.couple, c.arm_ratio[row] = pair.arm_j / pair.arm_i;
+  if constexpr (Law::rotates) c.torque[row] = torque, c.arm_ratio[row] = pair.arm_j / pair.arm_i;
   if constexpr (rolling) c.rolling[row] = f.rolling;
   if constexpr (remembers) c.memory[row] = memory;
 }
