@@ -69,7 +69,7 @@ inline double normal_force(NormalLaw law, const ContactState<double>& c, const C
 // Walton & Braun 1986: dF_t = -B u_t dt, |F_t| <= mu F_n, and B falls from B_0 = k_t to nothing at the limit,
 //   B = B_0 ((mu F_n + e F_t) / (mu F_n + e F*))^(1/3)              (2.24), both branches, e = u_t / |u_t|
 // F* is the force at which the slip last turned round: where it moves the force back towards F*. It is kept as part of mu F_n,
-// and so follows the normal force [Walton 1993]. At constant F_n this is Mindlin & Deresiewicz 1953, from slip to force
+// so that it follows the normal force. At constant F_n this is Mindlin & Deresiewicz 1953, from slip to force
 //   F_t = mu F_n (1 - (1 - 2/3 B_0 s / (mu F_n))^(3/2)).
 inline Vec3 walton_braun_friction(const ContactState<double>& c, const ChosenCoefficients& k, double limit, double time_step,
                                   ContactMemory& memory) {

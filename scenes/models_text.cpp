@@ -41,7 +41,7 @@ contact.tangential
   walton_braun     dF_t = -B u_t dt, |F_t| <= mu F_n,  B = k_t ((mu F_n + e F_t) / (mu F_n + e F*))^(1/3),  e = u_t / |u_t|
                    F*: the force at which the slip last turned round, kept as part of mu F_n
                      friction mu  1  >= 0
-                   Walton & Braun 1986; Walton 1993; Mindlin & Deresiewicz 1953; Pettersson 2015, eq (2.22)-(2.24)
+                   Walton & Braun 1986; Mindlin & Deresiewicz 1953; Pettersson 2015, eq (2.22)-(2.24)
   none             no friction
 
 contact.rolling
@@ -62,7 +62,7 @@ g overlap, R_eff and m_eff reduced radius and mass (a wall: R and m of the parti
 u_t velocity of the contact point, w_t relative spin, both in the tangent plane. The contact lies at R - g/2 from a centre.
 Springs beside another normal law than hertz: k_t = 4 G*/E* times k_n or k_1 and gamma_t = 2 zeta sqrt(k_t m_eff) beside linear and
 walton_braun; gamma_t = A k_t beside kuwabara_kono.
-hertz with springs runs on every set of vector instructions; any other combination on plain doubles, several times slower per contact.
+hertz with springs runs on every set of vector instructions; any other combination on plain doubles.
 A parameter that the chosen laws need and a pair lacks is an error; one that they do not use is named in the log.
 Nonsmooth DEM has none of these to choose: its rows are Hertz compliance, Coulomb friction and a constant limit of the rolling
 moment, or none of each; a scene that names another law is run with a warning.
