@@ -62,6 +62,15 @@ struct Neighbourhood {
   static constexpr auto columns() { return std::tuple{&Neighbourhood::first, &Neighbourhood::first_lower, &Neighbourhood::lower}; }
 };
 
+// History of a contact whose law is chosen at run time (kernels/chosen_law.h); what its law does not remember stays zero.
+struct ContactMemory {
+  double greatest_overlap = 0;   // [m], of a hysteretic normal law
+  Vec3 tangential;               // displacement of the spring [m], or force of Walton & Braun's law [N]
+  Vec3 reversal;                 // force at which the slip last turned round, as part of mu F_n [1]
+  Vec3 rolling;                  // elastic rolling moment [N m]
+  friend bool operator==(const ContactMemory&, const ContactMemory&) = default;
+};
+
 // Pairs of particles that may touch before the next listing, id[i] < id[j]; sorted by the row i, then by id[j].
 struct Contacts {
   Column<Index>  i{"i", "1"}, j{"j", "1"};                         // rows of Particles
@@ -70,11 +79,12 @@ struct Contacts {
   Column<Vec3>   torque{"contact_torque", "N m"};                  // of the force about the centre of i; about that of j, it is
   Column<double> arm_ratio{"contact_arm_ratio", "1"};              //   arm_ratio times that (empty where all radii are equal: 1)
   Column<Vec3>   spring{"tangential_spring", "m"};                 // history: displacement in the tangent plane
-  Column<Vec3>   rolling{"rolling_moment", "N m"};                 // history: elastic rolling moment on i, the opposite on j
+  Column<Vec3>   rolling{"rolling_moment", "N m"};                 // on i, the opposite on j; history where it is elastic
+  Column<ContactMemory> memory{"contact_memory", "m, N, N m"};     // history
   std::size_t rows() const { return i.data.size(); }
   static constexpr auto columns() {
     return std::tuple{&Contacts::i, &Contacts::j, &Contacts::partner, &Contacts::force, &Contacts::torque,
-                      &Contacts::arm_ratio, &Contacts::spring, &Contacts::rolling};
+                      &Contacts::arm_ratio, &Contacts::spring, &Contacts::rolling, &Contacts::memory};
   }
 };
 
@@ -84,9 +94,11 @@ struct PreviousContacts {
   Column<Index> partner{"previous_partner", "1"};
   Column<Vec3>  spring{"previous_tangential_spring", "m"};
   Column<Vec3>  rolling{"previous_rolling_moment", "N m"};
+  Column<ContactMemory> memory{"previous_contact_memory", "m, N, N m"};
   std::size_t rows() const { return partner.data.size(); }
   static constexpr auto columns() {
-    return std::tuple{&PreviousContacts::first, &PreviousContacts::partner, &PreviousContacts::spring, &PreviousContacts::rolling};
+    return std::tuple{&PreviousContacts::first, &PreviousContacts::partner, &PreviousContacts::spring, &PreviousContacts::rolling,
+                      &PreviousContacts::memory};
   }
 };
 
@@ -122,12 +134,13 @@ struct BodyContacts {
   Column<Vec3>   rolling_torque{"contact_rolling_torque", "N m"};  // its rolling part: the body gets the opposite
   Column<Vec3>   spring{"tangential_spring", "m"};                 // history
   Column<Vec3>   rolling{"rolling_moment", "N m"};                 // history
+  Column<ContactMemory> memory{"contact_memory", "m, N, N m"};     // history
   std::size_t rows() const { return particle.data.size(); }
   static constexpr auto columns() {
     return std::tuple{&BodyContacts::particle, &BodyContacts::geometry, &BodyContacts::slot, &BodyContacts::first_triangle,
                       &BodyContacts::triangle_count, &BodyContacts::overlap, &BodyContacts::normal, &BodyContacts::curvature,
                       &BodyContacts::force, &BodyContacts::torque, &BodyContacts::rolling_torque, &BodyContacts::spring,
-                      &BodyContacts::rolling};
+                      &BodyContacts::rolling, &BodyContacts::memory};
   }
 };
 
@@ -139,10 +152,12 @@ struct PreviousBodyContacts {
   Column<Vec3>   normal{"previous_normal", "1"};
   Column<Vec3>   spring{"previous_tangential_spring", "m"};
   Column<Vec3>   rolling{"previous_rolling_moment", "N m"};
+  Column<ContactMemory> memory{"previous_contact_memory", "m, N, N m"};
   std::size_t rows() const { return geometry.data.size(); }
   static constexpr auto columns() {
     return std::tuple{&PreviousBodyContacts::first, &PreviousBodyContacts::geometry, &PreviousBodyContacts::overlap,
-                      &PreviousBodyContacts::normal, &PreviousBodyContacts::spring, &PreviousBodyContacts::rolling};
+                      &PreviousBodyContacts::normal, &PreviousBodyContacts::spring, &PreviousBodyContacts::rolling,
+                      &PreviousBodyContacts::memory};
   }
 };
 
@@ -217,11 +232,13 @@ struct RigidContacts {
   Column<Vec3>   anchor_a{"anchor_a", "m"}, anchor_b{"anchor_b", "m"};   // the point in the frames of the bodies
   Column<Vec3>   force{"contact_force", "N"};                      // on a, at the point; -force on b
   Column<Vec3>   spring{"tangential_spring", "m"};                 // history: displacement in the tangent plane
+  Column<ContactMemory> memory{"contact_memory", "m, N, N m"};     // history
   std::size_t rows() const { return geometry_a.data.size(); }
   static constexpr auto columns() {
     return std::tuple{&RigidContacts::geometry_a, &RigidContacts::geometry_b, &RigidContacts::slot, &RigidContacts::previous,
                       &RigidContacts::point, &RigidContacts::normal, &RigidContacts::overlap, &RigidContacts::radius_eff,
-                      &RigidContacts::anchor_a, &RigidContacts::anchor_b, &RigidContacts::force, &RigidContacts::spring};
+                      &RigidContacts::anchor_a, &RigidContacts::anchor_b, &RigidContacts::force, &RigidContacts::spring,
+                      &RigidContacts::memory};
   }
 };
 

@@ -98,6 +98,7 @@ void BroadphaseBody::operator()(Parallel parallel, Read<&Search::due> due, Read<
   std::swap(previous->normal.data, contacts->normal.data);
   std::swap(previous->spring.data, contacts->spring.data);
   std::swap(previous->rolling.data, contacts->rolling.data);
+  std::swap(previous->memory.data, contacts->memory.data);
 
   std::vector<std::size_t> place_offset{0}, triangle_offset{0};
   for (const Found& f : found) {
@@ -114,7 +115,8 @@ void BroadphaseBody::operator()(Parallel parallel, Read<&Search::due> due, Read<
   resize_for_overwrite(c.torque.data, columns.torque ? total : 0);
   resize_for_overwrite(c.rolling_torque.data, columns.rolling ? total : 0);
   resize_for_overwrite(c.spring.data, columns.spring ? total : 0);
-  resize_for_overwrite(c.rolling.data, columns.rolling ? total : 0);
+  resize_for_overwrite(c.rolling.data, columns.rolling && columns.rolling_is_history ? total : 0);
+  resize_for_overwrite(c.memory.data, columns.memory ? total : 0);
   resize_for_overwrite(triangles->triangle.data, triangle_offset.back());
   parallel(found.size(), 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {

@@ -68,6 +68,7 @@ void ContactGeometryBodyBody::operator()(Parallel parallel, Read<&RigidPairs::a>
       const Index from = continued(old, rows_of(old, g, h), t.normal, now.anchor_a.data.back(), now.anchor_b.data.back());
       now.previous.data.push_back(from);
       if (springs) now.spring.data.push_back(from == no_index ? Vec3{} : old.spring.data[from]);
+      if (memory) now.memory.data.push_back(from == no_index ? ContactMemory{} : old.memory.data[from]);
     }
   now.force.data.resize(now.rows());
 }

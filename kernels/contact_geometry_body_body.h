@@ -10,6 +10,7 @@ struct ContactGeometryBodyBody {
 
   double margin;            // [m] >= 0: points are listed that are less than this apart
   bool springs;             // the law has a tangential spring: it goes on with the point it belongs to
+  bool memory;              // the law has another history: so does this
   Solids solids;
 
   void operator()(Parallel parallel, Read<&RigidPairs::a> a, Read<&RigidPairs::b> b, Read<&Geometries::body> body,

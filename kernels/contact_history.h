@@ -5,8 +5,8 @@
 namespace skred {
 
 // Entry c of a column, or `none` where the effect is out and there is no column.
-inline Vec3& entry(Nothing, std::size_t, Vec3& none) { return none; }
-template <auto F> Vec3& entry(Update<F>& column, std::size_t c, Vec3&) { return column[c]; }
+template <class V> V& entry(Nothing, std::size_t, V& none) { return none; }
+template <auto F> value_t<F>& entry(Update<F>& column, std::size_t c, value_t<F>&) { return column[c]; }
 
 // Zeroes entry c of the columns that exist: a contact that does not touch has no force, and forgets.
 inline void clear(std::size_t, Nothing) {}

@@ -9,7 +9,8 @@
 //
 // A law is a template on its number type R - double, or a SIMD pack with the same operators - and branches for all lanes or none.
 //
-// To add a law: write a struct like the ones below, and name it in kernels/laws.h.
+// To add a law that runs on packs: write a struct like the ones below, and name it in kernels/laws.h. Other laws, chosen at run time
+// and computed on plain doubles, are in kernels/chosen_law.h.
 #pragma once
 #include <cmath>
 #include "engine/vec3.h"
@@ -105,8 +106,11 @@ template <class Normal, class Tangential, class Rolling> struct ContactLaw {
   Normal normal;
   Tangential tangential;
   Rolling rolling;
+  using Coefficients = LawCoefficients;
+  static constexpr bool chosen = false;
   static constexpr bool has_tangential = Tangential::exists, has_rolling = Rolling::exists;
   static constexpr bool rotates = has_tangential || has_rolling;   // without them nothing can turn a sphere
+  static constexpr bool keeps_spring = has_tangential, keeps_rolling = has_rolling, remembers = false;   // columns of its history
 };
 
 // Force on i and the two parts of its torque: `couple` = n x F_t acts on both partners with the arm of each, `rolling` on i (and

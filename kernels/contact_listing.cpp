@@ -18,6 +18,7 @@ void ContactListing<Space>::operator()(Parallel parallel, Read<&Search::list_due
   std::swap(previous->partner.data, contacts->partner.data);
   std::swap(previous->spring.data, contacts->spring.data);
   std::swap(previous->rolling.data, contacts->rolling.data);
+  std::swap(previous->memory.data, contacts->memory.data);
 
   // Near pairs, numbered within each chunk of particles.
   constexpr std::size_t chunk = 1024;
@@ -47,6 +48,7 @@ void ContactListing<Space>::operator()(Parallel parallel, Read<&Search::list_due
   resize_for_overwrite(contacts->arm_ratio.data, columns.arm_ratio ? total : 0);
   resize_for_overwrite(contacts->spring.data, columns.spring ? total : 0);
   resize_for_overwrite(contacts->rolling.data, columns.rolling ? total : 0);
+  resize_for_overwrite(contacts->memory.data, columns.memory ? total : 0);
   for (auto* c : {&incidence->begin_lower, &incidence->end_lower}) resize_for_overwrite(c->data, n);
   resize_for_overwrite(incidence->first.data, n + 1);
   incidence->first.data[n] = static_cast<Index>(total);

@@ -10,7 +10,11 @@
 namespace skred {
 
 // Which columns of the contacts the laws need.
-struct ContactColumns { bool torque = false, spring = false, rolling = false, arm_ratio = false; };
+struct ContactColumns {
+  bool torque = false, spring = false, rolling = false, arm_ratio = false;
+  bool rolling_is_history = true;      // false: the moment of this step only
+  bool memory = false;
+};
 
 template <class Space> struct ContactListing {
   static constexpr const char* name = "contact_listing";

@@ -7,6 +7,7 @@
 #pragma once
 #include <vector>
 #include "engine/access.h"
+#include "kernels/chosen_law.h"
 #include "kernels/contact_history.h"
 #include "kernels/contact_law.h"
 
@@ -24,7 +25,7 @@ template <class Law> struct ForceCalculationBodyBody {
 
   Law law;
   std::size_t materials;
-  std::vector<LawCoefficients> coefficients;   // row-major table of pairs of materials
+  std::vector<typename Law::Coefficients> coefficients;   // row-major table of pairs of materials
   double time_step;                            // h [s]; 0 leaves the history as it is
 
   void operator()(Rows<RigidContacts> rows, Read<&RigidContacts::geometry_a> geometry_a, Read<&RigidContacts::geometry_b> geometry_b,
@@ -32,10 +33,11 @@ template <class Law> struct ForceCalculationBodyBody {
                   Read<&RigidContacts::radius_eff> radius_eff, Read<&Geometries::body> body, Read<&Geometries::material> material,
                   Read<&Bodies::motion> motion, Read<&Bodies::pose> pose, Read<&Bodies::velocity> velocity,
                   Read<&Bodies::angular_velocity> spin, Read<&Bodies::mass> mass, Read<&Bodies::inertia> inertia,
-                  Write<&RigidContacts::force> force, If<Law::has_tangential, Update<&RigidContacts::spring>> spring) const {
+                  Write<&RigidContacts::force> force, If<Law::keeps_spring, Update<&RigidContacts::spring>> spring,
+                  If<Law::remembers, Update<&RigidContacts::memory>> memory) const {
     for (std::size_t c = rows.first; c < rows.last; ++c) {
       if (!(overlap[c] > 0)) {
-        clear_all(c, force, spring);
+        clear_all(c, force, spring, memory);
         continue;
       }
       const Index a = body[geometry_a[c]], b = body[geometry_b[c]];
@@ -48,13 +50,19 @@ template <class Law> struct ForceCalculationBodyBody {
       s.normal = normal[c];
       s.radius_eff = radius_eff[c];
       s.contact_radius = std::sqrt(s.radius_eff * s.overlap);
-      s.damping_scale = std::sqrt(s.contact_radius / (gives_way(a) + gives_way(b)));
+      const double mobility_of_both = gives_way(a) + gives_way(b);
+      s.damping_scale = std::sqrt(s.contact_radius / mobility_of_both);
       const Vec3 u = moves(a) - moves(b);
       s.normal_velocity = dot(u, s.normal);
       s.tangential_velocity = u - s.normal_velocity * s.normal;
-      Vec3 none, no_moment;
-      const LawCoefficients& k = coefficients[material[geometry_a[c]] * materials + material[geometry_b[c]]];
-      force[c] = evaluate(law, s, k, time_step, entry(spring, c, none), no_moment).force;
+      const auto& k = coefficients[material[geometry_a[c]] * materials + material[geometry_b[c]]];
+      if constexpr (Law::chosen) {
+        ContactMemory none;
+        force[c] = evaluate(law, ChosenContact{s, 1 / mobility_of_both, 0, {}}, k, time_step, entry(memory, c, none)).force;
+      } else {
+        Vec3 none, no_moment;
+        force[c] = evaluate(law, s, k, time_step, entry(spring, c, none), no_moment).force;
+      }
     }
   }
 };

@@ -20,8 +20,8 @@ template <class R, class Lanes>
 PairRadiiAndMass<R> radii_and_mass(const AlikeParticles& p, const PairColumns&, const Lanes&, const Lanes&) {
   return {p.radius, p.radius, p.radius * p.radius / (p.radius + p.radius), p.mass * p.mass / (p.mass + p.mass)};
 }
-template <class R, class Lanes>
-PairRadiiAndMass<R> radii_and_mass(const VariousParticles&, const PairColumns& c, const Lanes& i, const Lanes& j) {
+template <class R, class K, class Lanes>
+PairRadiiAndMass<R> radii_and_mass(const LookedUpParticles<K>&, const PairColumns& c, const Lanes& i, const Lanes& j) {
   const R radius_i = load<R>(c.radius, i), radius_j = load<R>(c.radius, j), mass_i = load<R>(c.mass, i), mass_j = load<R>(c.mass, j);
   return {radius_i, radius_j, radius_i * radius_j / (radius_i + radius_j), mass_i * mass_j / (mass_i + mass_j)};
 }

@@ -4,6 +4,7 @@
 #pragma once
 #include <vector>
 #include "engine/access.h"
+#include "kernels/chosen_law.h"
 #include "kernels/contact_history.h"
 #include "kernels/contact_law.h"
 
@@ -15,7 +16,7 @@ template <class Law> struct ForceCalculationParticleBody {
 
   Law law;
   std::size_t materials;
-  std::vector<LawCoefficients> coefficients;   // row-major table of pairs of materials
+  std::vector<typename Law::Coefficients> coefficients;   // row-major table of pairs of materials
   double time_step;                            // h [s]; 0 leaves the history as it is
 
   void operator()(Rows<BodyContacts> rows, Read<&BodyContacts::particle> particle, Read<&BodyContacts::geometry> geometry,
@@ -28,15 +29,16 @@ template <class Law> struct ForceCalculationParticleBody {
                   Read<&Bodies::angular_velocity> body_spin, Read<&Bodies::mass> body_mass, Write<&BodyContacts::force> force,
                   If<Law::rotates, Write<&BodyContacts::torque>> torque,
                   If<Law::has_rolling, Write<&BodyContacts::rolling_torque>> rolling_torque,
-                  If<Law::has_tangential, Update<&BodyContacts::spring>> spring,
-                  If<Law::has_rolling, Update<&BodyContacts::rolling>> rolling) const {
+                  If<Law::keeps_spring, Update<&BodyContacts::spring>> spring,
+                  If<Law::keeps_rolling, Update<&BodyContacts::rolling>> rolling,
+                  If<Law::remembers, Update<&BodyContacts::memory>> memory) const {
     for (std::size_t c = rows.first; c < rows.last; ++c) {
       if (!(overlap[c] > 0)) {
-        clear_all(c, force, torque, rolling_torque, spring, rolling);
+        clear_all(c, force, torque, rolling_torque, spring, rolling, memory);
         continue;
       }
       const Index p = particle[c], g = geometry[c], w = body[g];
-      const LawCoefficients& k = coefficients[material[p] * materials + wall_material[g]];
+      const auto& k = coefficients[material[p] * materials + wall_material[g]];
       ContactState<double> s;
       s.overlap = overlap[c];
       s.normal = normal[c];
@@ -54,8 +56,16 @@ template <class Law> struct ForceCalculationParticleBody {
         s.tangential_velocity = u - s.normal_velocity * s.normal;
         s.rolling_velocity = in_tangent_plane(spin[p] - body_spin[w], s.normal);
       }
-      Vec3 none;
-      const ContactForce<double> f = evaluate(law, s, k, time_step, entry(spring, c, none), entry(rolling, c, none));
+      ContactForce<double> f;
+      if constexpr (Law::chosen) {
+        ChosenContact contact{s, mass_eff, 1.4 * mass[p] * radius[p] * radius[p], {}};
+        if constexpr (Law::has_rolling) contact.rolling_slip = radius[p] * s.rolling_velocity;
+        ContactMemory none;
+        f = evaluate(law, contact, k, time_step, entry(memory, c, none));
+      } else {
+        Vec3 none;
+        f = evaluate(law, s, k, time_step, entry(spring, c, none), entry(rolling, c, none));
+      }
       force[c] = f.force;
       if constexpr (Law::rotates) torque[c] = f.rolling - arm * f.couple;
       if constexpr (Law::has_rolling) rolling_torque[c] = f.rolling;

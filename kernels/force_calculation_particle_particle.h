@@ -7,6 +7,7 @@
 #include <vector>
 #include "engine/access.h"
 #include "engine/vector_path.h"
+#include "kernels/chosen_law.h"
 #include "kernels/contact_law.h"
 
 namespace skred {
@@ -18,11 +19,13 @@ struct AlikeParticles {
   LawCoefficients coefficients;
 };
 // ... else it is looked up per contact: row-major table of pairs of materials.
-struct VariousParticles {
+template <class Coefficients> struct LookedUpParticles {
   static constexpr bool alike = false;
   std::size_t materials;
-  std::vector<LawCoefficients> coefficients;
+  std::vector<Coefficients> coefficients;
 };
+using VariousParticles = LookedUpParticles<LawCoefficients>;
+using ChosenParticles = LookedUpParticles<ChosenCoefficients>;
 
 // The columns that the loop works on; null where the law or the kinds of particles do not need them.
 struct PairColumns {
@@ -33,6 +36,7 @@ struct PairColumns {
   Vec3 *force, *torque;
   double* arm_ratio;
   Vec3 *spring, *rolling;
+  ContactMemory* memory = nullptr;
 };
 
 // What one loop knows beside its columns.
@@ -51,7 +55,8 @@ template <class LawT, class KindsT, class SpaceT> struct PairForces {
 
 template <class P> using PairLoop = void (*)(const P&, const PairColumns&, std::size_t first, std::size_t last);
 template <class P> PairLoop<P> pair_loop(VectorPath path) {
-  return for_path(path, []<VectorPath p>() -> PairLoop<P> { return &P::template run<p>; });
+  if constexpr (P::Law::chosen) return &P::template run<VectorPath::scalar>;   // the same for every path (kernels/chosen_law.h)
+  else return for_path(path, []<VectorPath p>() -> PairLoop<P> { return &P::template run<p>; });
 }
 
 template <class Law, class Kinds, class Space> struct ForceCalculationParticleParticle {
@@ -67,11 +72,13 @@ template <class Law, class Kinds, class Space> struct ForceCalculationParticlePa
                   If<various, Read<&Particles::radius>> radius, If<various, Read<&Particles::mass>> mass,
                   If<various, Read<&Particles::material>> material, Write<&Contacts::force> force,
                   If<Law::rotates, Write<&Contacts::torque>> torque, If<Law::rotates && various, Write<&Contacts::arm_ratio>> arm_ratio,
-                  If<Law::has_tangential, Update<&Contacts::spring>> spring,
-                  If<Law::has_rolling, Update<&Contacts::rolling>> rolling) const {
+                  If<Law::keeps_spring, Update<&Contacts::spring>> spring,
+                  If<Law::has_rolling, std::conditional_t<Law::keeps_rolling, Update<&Contacts::rolling>, Write<&Contacts::rolling>>> rolling,
+                  If<Law::remembers, Update<&Contacts::memory>> memory) const {
     loop(pairs,
          {i.data(), j.data(), position.data(), velocity.data(), pointer(spin), pointer(radius), pointer(mass), pointer(material),
-          force.data(), pointer(torque), pointer(arm_ratio), pointer(spring), pointer(rolling)},
+          force.data(), pointer(torque), pointer(arm_ratio), pointer(spring), pointer(rolling),
+          pointer(memory)},
          rows.first, rows.last);
   }
 };

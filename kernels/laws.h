@@ -1,5 +1,6 @@
 // kernels/laws.h - the laws that a scene can be made of, by their effects: the one list that every place reads which must name them all.
 #pragma once
+#include "kernels/chosen_law.h"
 #include "kernels/contact_law.h"
 
 namespace skred {
@@ -12,5 +13,19 @@ template <bool damped> using NormalOnly = ContactLaw<Hertz<damped>, NoLaw, NoLaw
 #define SKRED_FOR_EACH_LAW(X) \
   X(FrictionAndRolling<true>) X(FrictionOnly<true>) X(RollingOnly<true>) X(NormalOnly<true>) \
   X(FrictionAndRolling<false>) X(FrictionOnly<false>) X(RollingOnly<false>) X(NormalOnly<false>)
+
+// Any other combination, its parts chosen at run time: by what it must have at hand.
+using ChosenNormal = ChosenLaw<false, false, false>;
+using ChosenNormalMemory = ChosenLaw<false, false, true>;
+using ChosenFriction = ChosenLaw<true, false, false>;
+using ChosenFrictionMemory = ChosenLaw<true, false, true>;
+using ChosenRolling = ChosenLaw<false, true, false>;
+using ChosenRollingMemory = ChosenLaw<false, true, true>;
+using ChosenBoth = ChosenLaw<true, true, false>;
+using ChosenBothMemory = ChosenLaw<true, true, true>;
+
+#define SKRED_FOR_EACH_CHOSEN_LAW(X) \
+  X(ChosenNormal) X(ChosenNormalMemory) X(ChosenFriction) X(ChosenFrictionMemory) \
+  X(ChosenRolling) X(ChosenRollingMemory) X(ChosenBoth) X(ChosenBothMemory)
 
 }  // namespace skred

@@ -80,9 +80,7 @@ Model build_model(const Scene& scene) {
   m.solver = scene.solver;
   m.gravity = scene.gravity;
   m.pairs = resolve_pairs(scene);
-  m.normal_law = scene.contact.normal != NormalLaw::none;
-  m.tangential_law = scene.contact.tangential != TangentialLaw::none;
-  m.rolling_law = scene.contact.rolling != RollingLaw::none;
+  m.contact = scene.contact;
   m.all_effects = scene.all_effects;
   m.orientation = scene.output.orientation;
   if (scene.periodic[0].on || scene.periodic[1].on || scene.periodic[2].on) {

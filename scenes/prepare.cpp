@@ -15,6 +15,7 @@ namespace {
 
 void check_restitution(const Scene& scene, const Model& model) {
   if (scene.method == Method::ndem) return;         // impacts are turned round at once, with any restitution
+  if (scene.contact.normal == NormalLaw::kuwabara_kono) return;
   const std::size_t n = model.pairs.count;
   for (std::size_t a = 0; a < n; ++a)
     for (std::size_t b = a; b < n; ++b)
@@ -22,6 +23,42 @@ void check_restitution(const Scene& scene, const Model& model) {
         throw SceneRefused(fmt::format("materials '{}' and '{}': restitution {:g} is out of range for smooth DEM: {:g} .. 1 "
                                        "(a lower one needs a dashpot that no step can resolve)",
                                        scene.materials[a].name, scene.materials[b].name, model.pairs(a, b).restitution, least_restitution));
+}
+
+// Parameters that the scene gives and its laws do not use; laws that its method does not have.
+void note_laws(const Scene& scene, Prepared& p) {
+  const ContactModel& c = scene.contact;
+  const std::string laws = fmt::format("normal: {}, tangential: {}, rolling: {}", word_of(c.normal), word_of(c.tangential), word_of(c.rolling));
+  const bool nonsmooth = scene.method == Method::ndem;
+  const auto other_than = [](auto law, auto one) { return law != one && law != decltype(law)::none; };
+  if (nonsmooth && (other_than(c.normal, NormalLaw::hertz) || other_than(c.tangential, TangentialLaw::spring) ||
+                    other_than(c.rolling, RollingLaw::spring)))
+    p.warnings.push_back(fmt::format("contact: {{{}}} are laws of smooth DEM; nonsmooth DEM has the compliance of Hertz, Coulomb friction and a "
+                                     "constant limit of the rolling moment", laws));
+  const bool normal = c.normal != NormalLaw::none, viscous = c.tangential == TangentialLaw::viscous || c.tangential == TangentialLaw::haff_werner;
+  const bool friction = c.tangential != TangentialLaw::none && (nonsmooth || c.tangential != TangentialLaw::viscous);
+  const bool rolling = c.rolling != RollingLaw::none && (nonsmooth || c.rolling != RollingLaw::viscous);
+  const bool spring = !nonsmooth && c.rolling == RollingLaw::spring;
+  std::string unused;
+  const auto look = [&](const char* name, bool used, auto own, auto of_pair, auto none) {
+    const bool given = std::any_of(scene.materials.begin(), scene.materials.end(), [&](const auto& m) { return m.*own != none; }) ||
+                       std::any_of(scene.pairs.begin(), scene.pairs.end(), [&](const auto& k) { return (k.*of_pair).has_value(); });
+    if (given && !(normal && used)) unused += (unused.empty() ? "" : ", ") + std::string(name);
+  };
+  using M = MaterialSpec;
+  using P = PairSpec;
+  const std::optional<double> absent;
+  look("restitution", nonsmooth || c.normal != NormalLaw::kuwabara_kono, &M::restitution, &P::restitution, 1.0);
+  look("friction", friction, &M::friction, &P::friction, 0.0);
+  look("rolling_friction", rolling, &M::rolling_friction, &P::rolling_friction, 0.0);
+  look("rolling_damping", spring, &M::rolling_damping, &P::rolling_damping, 0.0);
+  look("rolling_damping_at_limit", spring, &M::rolling_damping_at_limit, &P::rolling_damping_at_limit, 0.0);
+  look("normal_stiffness", !nonsmooth && is_linear(c.normal), &M::normal_stiffness, &P::normal_stiffness, absent);
+  look("damping_time", !nonsmooth && c.normal == NormalLaw::kuwabara_kono, &M::damping_time, &P::damping_time, absent);
+  look("tangential_damping", !nonsmooth && viscous, &M::tangential_damping, &P::tangential_damping, absent);
+  look("rolling_viscosity", !nonsmooth && c.rolling == RollingLaw::viscous, &M::rolling_viscosity, &P::rolling_viscosity, absent);
+  if (!unused.empty())
+    p.notes.push_back(fmt::format("given, but not used by {}: {}", nonsmooth ? "nonsmooth DEM" : "contact: {" + laws + "}", unused));
 }
 
 void check_periodic(const Scene& scene, const World& world, const Model& model) {
@@ -130,12 +167,13 @@ Prepared prepare(const Scene& scene, bool force_time_step) {
   const ParticleSet set = make_particles(scene);
   Prepared p{build_world(scene, set), build_model(scene), {}, {}, {}};
   check_restitution(scene, p.model);
+  note_laws(scene, p);
   check_shapes(scene, p);
   check_periodic(scene, p.world, p.model);
   check_bounds(scene, p.world);
   choose_time_step(scene, force_time_step, p);
   check_end_time(scene, p);
-  if (p.model.normal_law) check_start(scene, p);
+  if (p.model.contact.normal != NormalLaw::none) check_start(scene, p);
   check_bodies_at_start(scene, p);
   return p;
 }

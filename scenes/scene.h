@@ -14,6 +14,7 @@
 #include <vector>
 #include "engine/geometry/shape.h"
 #include "engine/material.h"
+#include "kernels/contact_model.h"
 #include "scenes/check/spec.h"
 #include "tasks/method.h"
 
@@ -25,12 +26,16 @@ struct MaterialSpec {
   // Of a contact of the material with itself. A pair that the scene does not list gets the geometric mean of both
   // materials' values: equal values stay, zero stays zero.
   double restitution = 1, friction = 0, rolling_friction = 0;
+  double rolling_damping = 0, rolling_damping_at_limit = 0;
+  // What only some contact laws need, and then must have.
+  std::optional<double> normal_stiffness, damping_time, tangential_damping, rolling_viscosity;
 };
 
 // Coefficients of a pair of materials; absent ones follow the rule above.
 struct PairSpec {
   std::string first, second;
-  std::optional<double> restitution, friction, rolling_friction;
+  std::optional<double> restitution, friction, rolling_friction, rolling_damping, rolling_damping_at_limit;
+  std::optional<double> normal_stiffness, damping_time, tangential_damping, rolling_viscosity;
 };
 
 struct RadiusSpec { double min = 0, max = 0; };   // [m] uniform in [min, max]; equal for one size
@@ -90,15 +95,6 @@ struct BodySpec {
 
 inline const char* method_word(Method m) { return m == Method::ndem ? "ndem" : "sdem"; }
 inline const char* method_title(Method m) { return m == Method::ndem ? "nonsmooth DEM" : "smooth DEM"; }
-enum class NormalLaw { hertz, none };
-enum class TangentialLaw { spring, none };
-enum class RollingLaw { spring, none };
-
-struct ContactModel {
-  NormalLaw normal = NormalLaw::hertz;
-  TangentialLaw tangential = TangentialLaw::spring;
-  RollingLaw rolling = RollingLaw::spring;
-};
 
 struct PeriodicSpec { bool on = false; double min = 0, max = 0; };
 

@@ -5,6 +5,7 @@
 #include "scenes/check/keys.h"
 #include "scenes/fill.h"
 #include "scenes/kinds.h"
+#include "scenes/pairs.h"
 
 namespace skred {
 namespace {
@@ -34,6 +35,18 @@ const Section<MaterialSpec>& material_keys() {
       key("friction", Number{"1", non_negative}, &M::friction, "Coefficient of friction mu of the material with itself."),
       key("rolling_friction", Number{"1", non_negative}, &M::rolling_friction,
           "Coefficient of rolling friction mu_r of the material with itself; the limit of the moment is mu_r R_eff F_n."),
+      key("rolling_damping", Number{"1", between(0, 1)}, &M::rolling_damping,
+          "contact.rolling: spring: its dashpot eta_r, as part of the critical damping."),
+      key("rolling_damping_at_limit", Number{"1", between(0, 1)}, &M::rolling_damping_at_limit,
+          "contact.rolling: spring: the part f of its dashpot that is left while the spring slips."),
+      key("normal_stiffness", Or<Number>{"none", {"N/m", positive}}, &M::normal_stiffness,
+          "contact.normal: linear and walton_braun: stiffness k_n of the material with itself; walton_braun: of loading, k_1."),
+      key("damping_time", Or<Number>{"none", {"s", non_negative}}, &M::damping_time,
+          "contact.normal: kuwabara_kono: relaxation time A of the material with itself; it takes the place of restitution."),
+      key("tangential_damping", Or<Number>{"none", {"N s/m", non_negative}}, &M::tangential_damping,
+          "contact.tangential: viscous and haff_werner: gamma_t of the material with itself, force per sliding speed."),
+      key("rolling_viscosity", Or<Number>{"none", {"s/m", non_negative}}, &M::rolling_viscosity,
+          "contact.rolling: viscous: moment per R_eff F_n and rolling speed, of the material with itself."),
   }};
   return section;
 }
@@ -49,6 +62,13 @@ const Section<PairSpec>& pair_keys() {
       key("friction", Or<Number>{"auto", {"1", non_negative}}, &P::friction, "Coefficient of friction; auto as above."),
       key("rolling_friction", Or<Number>{"auto", {"1", non_negative}}, &P::rolling_friction,
           "Coefficient of rolling friction; auto as above."),
+      key("rolling_damping", Or<Number>{"auto", {"1", between(0, 1)}}, &P::rolling_damping, "As of a material; auto as above."),
+      key("rolling_damping_at_limit", Or<Number>{"auto", {"1", between(0, 1)}}, &P::rolling_damping_at_limit,
+          "As of a material; auto as above."),
+      key("normal_stiffness", Or<Number>{"auto", {"N/m", positive}}, &P::normal_stiffness, "As of a material; auto as above."),
+      key("damping_time", Or<Number>{"auto", {"s", non_negative}}, &P::damping_time, "As of a material; auto as above."),
+      key("tangential_damping", Or<Number>{"auto", {"N s/m", non_negative}}, &P::tangential_damping, "As of a material; auto as above."),
+      key("rolling_viscosity", Or<Number>{"auto", {"s/m", non_negative}}, &P::rolling_viscosity, "As of a material; auto as above."),
   }};
   return section;
 }
@@ -157,14 +177,26 @@ const Section<ParticleSource>& source_keys() {
 
 // The scene -----------------------------------------------------------------------------------------------------------
 
+template <class E> Word<E> words_of(std::initializer_list<E> laws) {
+  Word<E> out;
+  for (const E law : laws) out.words.push_back({word_of(law), law});
+  return out;
+}
+
 const Section<ContactModel>& contact_keys() {
   using C = ContactModel;
   static const Section<C> section{{
-      key("normal", Word<NormalLaw>{{{"hertz", NormalLaw::hertz}, {"none", NormalLaw::none}}}, &C::normal, "Normal force."),
-      key("tangential", Word<TangentialLaw>{{{"spring", TangentialLaw::spring}, {"none", TangentialLaw::none}}}, &C::tangential,
-          "Tangential force."),
-      key("rolling", Word<RollingLaw>{{{"spring", RollingLaw::spring}, {"none", RollingLaw::none}}}, &C::rolling,
-          "Rolling resistance."),
+      key("normal", words_of({NormalLaw::hertz, NormalLaw::linear, NormalLaw::kuwabara_kono, NormalLaw::walton_braun, NormalLaw::none}),
+          &C::normal,
+          "Normal force: Hertz with constant restitution; linear spring and dashpot with constant restitution; Hertz with the damping of "
+          "Kuwabara and Kono; hysteretic springs of Walton and Braun. `skred models` has the equations and parameters."),
+      key("tangential", words_of({TangentialLaw::spring, TangentialLaw::coulomb, TangentialLaw::viscous, TangentialLaw::haff_werner,
+                                  TangentialLaw::walton_braun, TangentialLaw::none}), &C::tangential,
+          "Tangential force: spring with Coulomb limit of Cundall and Strack; Coulomb friction of what slides; viscous; viscous with Coulomb "
+          "limit of Haff and Werner; softening spring of Walton and Braun. Nonsmooth DEM always has Coulomb friction, or none."),
+      key("rolling", words_of({RollingLaw::spring, RollingLaw::constant_torque, RollingLaw::viscous, RollingLaw::none}), &C::rolling,
+          "Rolling resistance: elastic-plastic spring, with a dashpot if rolling_damping says so; constant torque; viscous. Nonsmooth DEM always "
+          "has a constant limit, or none."),
   }};
   return section;
 }
@@ -271,7 +303,33 @@ const Section<Scene::Output>& output_keys() {
   return section;
 }
 
+// Every pair of materials has what the laws of smooth DEM need and no default could stand for.
+void check_contact(Reader& r, const Node& node, const Scene& s) {
+  if (s.method == Method::ndem || s.contact.normal == NormalLaw::none) return;
+  const auto need = [&](bool needed, const char* key, const std::string& law, const char* name, auto own, auto of_pair) {
+    const Node::Entry* contact = node.find("contact");
+    if (!needed || !contact) return;
+    for (std::size_t i = 0; i < s.materials.size(); ++i)
+      for (std::size_t j = 0; j <= i; ++j)
+        if (!coefficient_of_pair(s, i, j, own, of_pair)) {
+          const Node::Entry* at = contact->value.find(key);
+          const std::string who = i == j ? "material '" + s.materials[i].name + "' has none"
+                                         : "the pair " + s.materials[j].name + ", " + s.materials[i].name + " has none";
+          return r.error(at ? at->value : contact->value, std::string("contact.") + key + ": " + law + " needs " + name + ", and " + who +
+                         ": give it to both materials, or to the pair");
+        }
+  };
+  const ContactModel& c = s.contact;
+  need(is_linear(c.normal), "normal", word_of(c.normal), "normal_stiffness", &MaterialSpec::normal_stiffness, &PairSpec::normal_stiffness);
+  need(c.normal == NormalLaw::kuwabara_kono, "normal", word_of(c.normal), "damping_time", &MaterialSpec::damping_time, &PairSpec::damping_time);
+  need(c.tangential == TangentialLaw::viscous || c.tangential == TangentialLaw::haff_werner, "tangential", word_of(c.tangential),
+       "tangential_damping", &MaterialSpec::tangential_damping, &PairSpec::tangential_damping);
+  need(c.rolling == RollingLaw::viscous, "rolling", word_of(c.rolling), "rolling_viscosity", &MaterialSpec::rolling_viscosity,
+       &PairSpec::rolling_viscosity);
+}
+
 void check_scene(Reader& r, const Node& node, Scene& s) {
+  check_contact(r, node, s);
   if (s.time_step && *s.time_step > s.end_time)
     if (const Node::Entry* step = node.find("time_step"))
       r.error(step->value, "time_step: " + number_text(*s.time_step) + " s is longer than end_time, " +

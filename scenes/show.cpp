@@ -74,35 +74,4 @@ std::string graph_svg(const Scene& scene) {
   return svg;
 }
 
-std::string models_text() {
-  return
-      "contact models of smooth DEM; coefficients belong to a pair of materials\n"
-      "\n"
-      "contact.normal\n"
-      "  hertz    F_n = max(0, 4/3 E* sqrt(R_eff) g^(3/2) + gamma_n dg/dt),  gamma_n = beta sqrt(2 E* sqrt(R_eff g) m_eff)\n"
-      "           beta = sqrt(10/3) zeta, zeta from e = exp(-2 zeta arccos(zeta) / sqrt(1 - zeta^2)): the restitution is exactly e\n"
-      "           at every speed although the force never pulls\n"
-      "             youngs_modulus  Pa  > 0        poissons_ratio  1  > -1 .. 0.5     restitution  1  0.01 .. 1\n"
-      "           Hertz 1882; Pettersson 2015, eq (3.1), (3.2), repaired; Schwager & Poeschel 2007\n"
-      "  none     no contact forces at all\n"
-      "\n"
-      "contact.tangential\n"
-      "  spring   F_t = -k_t x - gamma_t u_t, |F_t| <= mu F_n,  k_t = 8 G* sqrt(R_eff g),  gamma_t = beta sqrt(k_t m_eff)\n"
-      "           x: displacement of the contact point since first touch, kept in the tangent plane and within mu F_n / k_t\n"
-      "             friction  1  >= 0\n"
-      "           Cundall & Strack 1979; Mindlin 1949; Pettersson 2015, eq (3.3)-(3.7)\n"
-      "  none     no friction\n"
-      "\n"
-      "contact.rolling\n"
-      "  spring   dM = -k_r w_t dt, |M| <= mu_r R_eff F_n,  k_r = k_t R_eff^2  (elastic-plastic, no damping, no twist)\n"
-      "             rolling_friction  1  >= 0\n"
-      "           Ai et al. 2011, model C; Pettersson 2015, eq (2.29), (2.30), (3.8)\n"
-      "  none     no rolling resistance\n"
-      "\n"
-      "g overlap, R_eff and m_eff reduced radius and mass (a wall: R and m of the particle), E* and G* effective moduli,\n"
-      "u_t velocity of the contact point, w_t relative spin, both in the tangent plane. The contact lies at R - g/2 from a centre.\n"
-      "Two rigid bodies: the normal and tangential law at every corner of the patch where they touch; R_eff from spheres of equal\n"
-      "volume (Podlozhnyuk et al. 2017; the own radius of a sphere on something flat), 1/m_eff = sum of 1/m + (r x n) I^-1 (r x n).\n";
-}
-
 }  // namespace skred

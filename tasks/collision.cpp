@@ -22,10 +22,14 @@ void add_search(Task& task, const World& w, const Model& m, const Effects& e, co
   task.add(ContactListing<Space>{space, columns});
 }
 
-template <template <bool, bool> class Hashing> void add_hashing(Task& task, const ContactColumns& columns) {
-  if (columns.spring && columns.rolling) task.add(Hashing<true, true>{});
-  else if (columns.spring) task.add(Hashing<true, false>{});
-  else if (columns.rolling) task.add(Hashing<false, true>{});
+bool any_history(const ContactColumns& columns) { return columns.spring || (columns.rolling && columns.rolling_is_history) || columns.memory; }
+
+template <template <bool, bool, bool> class Hashing> void add_hashing(Task& task, const ContactColumns& columns) {
+  if (!any_history(columns)) return;
+  if (columns.memory) task.add(Hashing<false, false, true>{});   // all of a chosen law's history
+  else if (columns.spring && columns.rolling) task.add(Hashing<true, true, false>{});
+  else if (columns.spring) task.add(Hashing<true, false, false>{});
+  else task.add(Hashing<false, true, false>{});
 }
 
 }  // namespace
@@ -36,19 +40,19 @@ void add_collision(Task& task, const World& w, const Model& m, const Effects& e,
   if (e.contacts) add_hashing<ContactHashing>(task, columns);
   if (e.bodies) {
     task.add(BroadphaseBody{margins_of(w, m).walls, columns});
-    if (columns.spring || columns.rolling) add_hashing<ContactHashingBody>(task, columns);
-    else if (e.meshes) task.add(ContactHashingBody<false, false>{});
+    add_hashing<ContactHashingBody>(task, columns);
+    if (e.meshes && !any_history(columns)) task.add(ContactHashingBody<false, false, false>{});
     if (m.method == Method::ndem) task.add(ContactGeometryBody<true>{m.time_step, step_ahead(w, m).fall});
     else task.add(ContactGeometryBody<false>{});
   }
 }
 
-void add_rigid_collision(Task& task, const World& w, const Effects& e, double margin, bool history) {
+void add_rigid_collision(Task& task, const World& w, const Effects& e, double margin, bool springs) {
   if (!e.rigid_contacts) return;
   const auto& shapes = std::get<Geometries>(w).shape.data;
   const auto solids = std::make_shared<const std::vector<Solid>>(shapes.begin(), shapes.end());
   task.add(BroadphaseBodyBody{margin});
-  task.add(ContactGeometryBodyBody{margin, history, solids});
+  task.add(ContactGeometryBodyBody{margin, springs, e.memory, solids});
 }
 
 namespace {

@@ -81,10 +81,11 @@ Effects decide_effects(const World& w, const Model& m) {
     return decide(effect, needed, because, because_not);
   };
 
-  e.normal = m.normal_law;
-  e.contacts = decide("particle-particle contacts", m.normal_law && p.rows() > 1, std::to_string(p.rows()) + " particles",
-                      m.normal_law ? "fewer than two particles" : "contact: normal: none");
-  e.bodies = decide("rigid bodies", m.normal_law && g.rows() > 0,
+  const bool normal = m.contact.normal != NormalLaw::none;
+  e.normal = normal;
+  e.contacts = decide("particle-particle contacts", normal && p.rows() > 1, std::to_string(p.rows()) + " particles",
+                      normal ? "fewer than two particles" : "contact: normal: none");
+  e.bodies = decide("rigid bodies", normal && g.rows() > 0,
                     std::to_string(motion.size()) + (motion.size() == 1 ? " body, " : " bodies, ") + std::to_string(g.rows()) +
                         (g.rows() == 1 ? " geometry" : " geometries"),
                     g.rows() > 0 ? "contact: normal: none" : "the scene has none");
@@ -93,29 +94,63 @@ Effects decide_effects(const World& w, const Model& m) {
                     "a geometry is a mesh", "no geometry is a mesh");
   e.dynamic_bodies = decide("dynamic bodies", any_motion([](Motion x) { return x == Motion::dynamic; }), "a body is dynamic",
                             "no body is dynamic; forces on bodies are summed when statistics are sampled");
-  e.rigid_contacts = decide("contacts between bodies", m.normal_law && e.dynamic_bodies && motion.size() > 1,
+  e.rigid_contacts = decide("contacts between bodies", normal && e.dynamic_bodies && motion.size() > 1,
                             "a dynamic body may touch " + std::string(motion.size() == 2 ? "the other body" : "the other bodies"),
-                            !m.normal_law ? "contact: normal: none" : e.dynamic_bodies ? "there is one body" : "no body is dynamic");
+                            !normal ? "contact: normal: none" : e.dynamic_bodies ? "there is one body" : "no body is dynamic");
   e.moving_bodies = decide("moving bodies", any_motion([](Motion x) { return x != Motion::fixed; }), "a body moves", "every body is static");
   const bool nonsmooth = m.method == Method::ndem;
   if (nonsmooth)
-    e.impacts = of_law("impact stage", m.normal_law, any_pair(&PairCoefficients::restitution, 0), "restitution is above 0 for some pair",
+    e.impacts = of_law("impact stage", normal, any_pair(&PairCoefficients::restitution, 0), "restitution is above 0 for some pair",
                        "restitution is 0 for every pair");
-  else e.damping = of_law("damping", m.normal_law, any_pair(&PairCoefficients::restitution, 1), "restitution is below 1 for some pair",
+  else if (m.contact.normal == NormalLaw::kuwabara_kono)
+    e.damping = of_law("damping", normal, any_pair(&PairCoefficients::damping_time, 0), "damping_time is above 0 for some pair",
+                       "damping_time is 0 for every pair");
+  else e.damping = of_law("damping", normal, any_pair(&PairCoefficients::restitution, 1), "restitution is below 1 for some pair",
                      "restitution is 1 for every pair");
-  e.friction = of_law("friction", m.normal_law && m.tangential_law, any_pair(&PairCoefficients::friction, 0),
-                      "friction is above 0 for some pair", "friction is 0 for every pair");
-  e.rolling = of_law("rolling resistance", m.normal_law && m.rolling_law, any_pair(&PairCoefficients::rolling_friction, 0),
+  // Nonsmooth DEM: always Coulomb friction and rolling resistance of constant strength, unless the scene wants none.
+  const TangentialLaw tangential = m.contact.tangential == TangentialLaw::none ? TangentialLaw::none
+                                   : nonsmooth ? TangentialLaw::coulomb : m.contact.tangential;
+  const RollingLaw rolling = m.contact.rolling == RollingLaw::none ? RollingLaw::none
+                             : nonsmooth ? RollingLaw::constant_torque : m.contact.rolling;
+  const bool mu = any_pair(&PairCoefficients::friction, 0), gamma_t = any_pair(&PairCoefficients::tangential_damping, 0);
+  const bool in_friction = normal && tangential != TangentialLaw::none;
+  if (tangential == TangentialLaw::viscous)
+    e.friction = of_law("friction", in_friction, gamma_t, "tangential_damping is above 0 for some pair", "tangential_damping is 0 for every pair");
+  else if (tangential == TangentialLaw::haff_werner)
+    e.friction = of_law("friction", in_friction, mu && gamma_t, "friction and tangential_damping are above 0 for some pair",
+                        "friction or tangential_damping is 0 for every pair");
+  else e.friction = of_law("friction", in_friction, mu, "friction is above 0 for some pair", "friction is 0 for every pair");
+  const bool in_rolling = normal && rolling != RollingLaw::none;
+  const bool dashpot = any_pair(&PairCoefficients::rolling_damping, 0);
+  if (rolling == RollingLaw::viscous)
+    e.rolling = of_law("rolling resistance", in_rolling, any_pair(&PairCoefficients::rolling_viscosity, 0),
+                       "rolling_viscosity is above 0 for some pair", "rolling_viscosity is 0 for every pair");
+  else if (rolling == RollingLaw::spring && dashpot && any_pair(&PairCoefficients::rolling_damping_at_limit, 0))
+    e.rolling = of_law("rolling resistance", in_rolling, true, "the dashpot of the rolling spring acts at its limit too", "");
+  else e.rolling = of_law("rolling resistance", in_rolling, any_pair(&PairCoefficients::rolling_friction, 0),
                      "rolling_friction is above 0 for some pair", "rolling_friction is 0 for every pair");
-  if (nonsmooth) e.history = decide("contact history", m.normal_law, "the solver starts from the impulses of the last step", "contact: normal: none");
+  const std::string laws = "normal: " + std::string(word_of(m.contact.normal)) + ", tangential: " + word_of(m.contact.tangential) +
+                           ", rolling: " + word_of(m.contact.rolling);
+  e.chosen = !nonsmooth && normal &&
+             (m.contact.normal != NormalLaw::hertz || (e.friction && tangential != TangentialLaw::spring) ||
+              (e.rolling && (rolling != RollingLaw::spring || dashpot)));
+  decide("laws other than Hertz and springs", e.chosen, laws + (e.rolling && dashpot && rolling == RollingLaw::spring ? " with its dashpot" : ""),
+         !nonsmooth ? "none that has an effect: every set of vector instructions computes these"
+         : m.contact == ContactModel{} ? "nonsmooth DEM: Hertz compliance, Coulomb friction, constant rolling resistance"
+         : "nonsmooth DEM: Hertz compliance, Coulomb friction, constant rolling resistance - not " + laws);
+  e.memory = e.chosen && (m.contact.normal == NormalLaw::walton_braun ||
+                          (e.friction && (tangential == TangentialLaw::spring || tangential == TangentialLaw::walton_braun)) ||
+                          (e.rolling && rolling == RollingLaw::spring));
+  if (nonsmooth) e.history = decide("contact history", normal, "the solver starts from the impulses of the last step", "contact: normal: none");
+  else if (e.chosen) e.history = decide("contact history", e.memory, "a law remembers: a spring, or one of Walton & Braun's", "no law needs it");
   else e.history = decide("contact history", e.friction || e.rolling, "friction or rolling resistance needs it", "no law needs it");
   e.rotation = decide("rotation", e.friction || e.rolling || m.orientation,
                       e.friction || e.rolling ? "friction or rolling resistance can turn particles" : "the output asks for orientations",
                       "nothing can turn a particle");
   e.orientation = decide("orientation of particles", m.orientation, "the output asks for it", "the output does not ask for it");
   const bool alike = all_equal(p.radius.data) && all_equal(p.mass.data) && all_equal(p.material.data) && p.rows() > 0;
-  e.alike = !nonsmooth && !decide("several radii or materials of particles", !alike || m.all_effects,
-                    alike ? "kept by effects: all" : "particles differ",
+  e.alike = !nonsmooth && !decide("several radii or materials of particles", !alike || m.all_effects || e.chosen,
+                    !alike ? "particles differ" : m.all_effects ? "kept by effects: all" : "looked up for these laws in any case",
                     "one radius and one material: coefficients are worked out once");
   e.periodic = decide("periodic directions", m.periodic.has_value(), "the scene has some", "the scene has none");
   return e;

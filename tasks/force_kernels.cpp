@@ -1,5 +1,6 @@
 // tasks/force_kernels.cpp - from the laws that a scene chooses to one instance of the fused force kernels.
 #include <cmath>
+#include "kernels/chosen_law.h"
 #include "kernels/force_calculation_body_body.h"
 #include "kernels/force_calculation_particle_body.h"
 #include "kernels/force_calculation_particle_particle.h"
@@ -17,14 +18,40 @@ LawCoefficients coefficients(const PairCoefficients& p) {
   return {2 * p.young_eff, 8 * p.shear_eff, beta * std::sqrt(2 * p.young_eff), beta * std::sqrt(8 * p.shear_eff), p.friction, p.rolling_friction};
 }
 
-std::vector<LawCoefficients> coefficients(const PairTable& pairs) {
-  std::vector<LawCoefficients> table;
-  for (const PairCoefficients& p : pairs.values) table.push_back(coefficients(p));
+// The same for a law with other parts: what multiplies the scales of its springs and dashpots (kernels/chosen_law.h). k_t / k_n is that
+// of Hertz and Mindlin, 8 G* / (2 E*) = 2 (1 - nu) / (2 - nu), whatever the normal law.
+ChosenCoefficients chosen_coefficients(const ContactModel& model, const PairCoefficients& p) {
+  ChosenCoefficients k{coefficients(p)};
+  if (model.normal == NormalLaw::kuwabara_kono) {
+    k.normal_damping = p.damping_time * k.normal_stiffness;
+    k.tangential_damping = p.damping_time * k.tangential_stiffness;
+  }
+  if (is_linear(model.normal)) {
+    k.normal_stiffness = p.normal_stiffness;
+    k.tangential_stiffness = p.normal_stiffness * (8 * p.shear_eff) / (2 * p.young_eff);
+    const double zeta = damping_ratio_of(p.restitution);       // c = 2 zeta sqrt(k m_eff)   eq (2.10) for a force that never pulls
+    k.normal_damping = 2 * zeta * std::sqrt(k.normal_stiffness);
+    k.tangential_damping = 2 * zeta * std::sqrt(k.tangential_stiffness);
+    k.unloading_stiffness = p.normal_stiffness / (p.restitution * p.restitution);   // e = sqrt(k_1 / k_2), Walton & Braun 1986
+  }
+  k.tangential_viscosity = p.tangential_damping;
+  k.rolling_viscosity = p.rolling_viscosity;
+  k.rolling_damping = p.rolling_damping;
+  k.rolling_damping_at_limit = p.rolling_damping_at_limit;
+  return k;
+}
+
+template <class Law> std::vector<typename Law::Coefficients> table_of(const Model& m) {
+  std::vector<typename Law::Coefficients> table;
+  for (const PairCoefficients& p : m.pairs.values) {
+    if constexpr (Law::chosen) table.push_back(chosen_coefficients(m.contact, p));
+    else table.push_back(coefficients(p));
+  }
   return table;
 }
 
 template <class Law> void add_kernels(Task& task, const World& w, const Model& m, const Effects& e, double h, Law law) {
-  const std::vector<LawCoefficients> table = coefficients(m.pairs);
+  const auto table = table_of<Law>(m);
   const Particles& p = std::get<Particles>(w);
 
   const auto add_pairs = [&](auto kinds, auto space) {
@@ -32,7 +59,9 @@ template <class Law> void add_kernels(Task& task, const World& w, const Model& m
     task.add(Kernel{{law, kinds, space, h}, pair_loop<decltype(Kernel::pairs)>(m.vector_path)});
   };
   const auto add_in = [&](auto space) {
-    if (e.alike) {
+    if constexpr (Law::chosen) {
+      add_pairs(ChosenParticles{m.pairs.count, table}, space);
+    } else if (e.alike) {
       const auto k = p.material.data[0];
       add_pairs(AlikeParticles{p.radius.data[0], p.mass.data[0], table[k * m.pairs.count + k]}, space);
     } else {
@@ -46,20 +75,34 @@ template <class Law> void add_kernels(Task& task, const World& w, const Model& m
   if (e.bodies) task.add(ForceCalculationParticleBody<Law>{law, m.pairs.count, table, h});
 }
 
+template <class Law> void add_rigid_kernel(Task& task, const Model& m, double h, Law law) {
+  task.add(ForceCalculationBodyBody<Law>{law, m.pairs.count, table_of<Law>(m), h});
+}
+
 template <bool damped> void choose(Task& task, const World& w, const Model& m, const Effects& e, double h) {
   if (e.friction && e.rolling) add_kernels(task, w, m, e, h, FrictionAndRolling<damped>{});
   else if (e.friction) add_kernels(task, w, m, e, h, FrictionOnly<damped>{});
   else if (e.rolling) add_kernels(task, w, m, e, h, RollingOnly<damped>{});
   else add_kernels(task, w, m, e, h, NormalOnly<damped>{});
-  const auto add_bodies = [&](auto law) { task.add(ForceCalculationBodyBody<decltype(law)>{law, m.pairs.count, coefficients(m.pairs), h}); };
-  if (e.rigid_contacts && e.friction) add_bodies(FrictionOnly<damped>{});
-  else if (e.rigid_contacts) add_bodies(NormalOnly<damped>{});
+  if (e.rigid_contacts && e.friction) add_rigid_kernel(task, m, h, FrictionOnly<damped>{});
+  else if (e.rigid_contacts) add_rigid_kernel(task, m, h, NormalOnly<damped>{});
+}
+
+template <bool remembers> void choose_other(Task& task, const World& w, const Model& m, const Effects& e, double h) {
+  if (e.friction && e.rolling) add_kernels(task, w, m, e, h, ChosenLaw<true, true, remembers>{m.contact});
+  else if (e.friction) add_kernels(task, w, m, e, h, ChosenLaw<true, false, remembers>{m.contact});
+  else if (e.rolling) add_kernels(task, w, m, e, h, ChosenLaw<false, true, remembers>{m.contact});
+  else add_kernels(task, w, m, e, h, ChosenLaw<false, false, remembers>{m.contact});
+  if (e.rigid_contacts && e.friction) add_rigid_kernel(task, m, h, ChosenLaw<true, false, remembers>{m.contact});
+  else if (e.rigid_contacts) add_rigid_kernel(task, m, h, ChosenLaw<false, false, remembers>{m.contact});
 }
 
 }  // namespace
 
 void add_force_calculation(Task& task, const World& w, const Model& m, const Effects& e, double h) {
-  if (e.damping) choose<true>(task, w, m, e, h);
+  if (e.chosen && e.memory) choose_other<true>(task, w, m, e, h);
+  else if (e.chosen) choose_other<false>(task, w, m, e, h);
+  else if (e.damping) choose<true>(task, w, m, e, h);
   else choose<false>(task, w, m, e, h);
 }
 

@@ -10,6 +10,7 @@
 #include "engine/vector_path.h"
 #include "engine/world.h"
 #include "kernels/check_motion.h"
+#include "kernels/contact_model.h"
 #include "tasks/method.h"
 
 namespace skred {
@@ -20,7 +21,7 @@ struct Model {
   double time_step = 0;                            // h [s] > 0
   Vec3 gravity{0, 0, -9.81};                       // [m/s^2]
   PairTable pairs;
-  bool normal_law = true, tangential_law = true, rolling_law = true;   // false: `none` in the scene
+  ContactModel contact;                            // smooth DEM; nonsmooth DEM looks for `none` only
   bool all_effects = false;                        // keep every effect, even where its parameter is zero
   bool orientation = false;                        // integrate the orientation of particles
   std::optional<PeriodicSpace> periodic;
@@ -39,7 +40,8 @@ struct Effects {
   bool normal, damping, friction, rolling;
   bool impacts;                                    // the impact stage of nonsmooth DEM
   bool rotation, orientation, history;
-  bool alike;                                      // one radius, one mass, one material
+  bool chosen, memory;                             // smooth DEM: a law chosen at run time, and whether it has a history
+  bool alike;                                      // one radius, one mass, one material, worked out once: no law looks them up
   bool periodic;
 
   struct Reason { std::string effect; bool in; std::string why; };

@@ -47,7 +47,8 @@ class Overlaps {
     return w;
   }
   static Model without_laws(Model m) {
-    m.tangential_law = m.rolling_law = m.orientation = false;
+    m.contact = {m.contact.normal == NormalLaw::none ? NormalLaw::none : NormalLaw::hertz, TangentialLaw::none, RollingLaw::none};
+    m.orientation = false;
     m.bounds.reset();
     return m;
   }

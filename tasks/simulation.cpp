@@ -100,16 +100,19 @@ std::uint64_t Simulation::state_hash() const {
     if (!p.orientation.data.empty()) hash.add(p.orientation.data[r]);
     // History only of contacts that touch: which others are listed depends on the skin.
     for (Index k = in.first.data[r]; k < in.first.data[r + 1]; ++k) {
-      if (c.force.data[k] == Vec3{}) continue;
+      const bool remembers = !c.memory.data.empty();
+      if (c.force.data[k] == Vec3{} && !(remembers && c.memory.data[k] != ContactMemory{})) continue;
       hash.add(c.partner.data[k]);
       if (!c.spring.data.empty()) hash.add(c.spring.data[k]);
       if (!c.rolling.data.empty()) hash.add(c.rolling.data[k]);
+      if (remembers) hash.add(c.memory.data[k]);
     }
     for (Index k = bin.first.data[r]; k < bin.first.data[r + 1]; ++k) {
       if (!(bc.overlap.data[k] > 0)) continue;
       hash.add(bc.geometry.data[k]);
       if (!bc.spring.data.empty()) hash.add(bc.spring.data[k]);
       if (!bc.rolling.data.empty()) hash.add(bc.rolling.data[k]);
+      if (!bc.memory.data.empty()) hash.add(bc.memory.data[k]);
     }
   }
   const RigidContacts& rc = std::get<RigidContacts>(world_);
@@ -118,6 +121,7 @@ std::uint64_t Simulation::state_hash() const {
     hash.add(rc.geometry_a.data[k]);
     hash.add(rc.geometry_b.data[k]);
     if (!rc.spring.data.empty()) hash.add(rc.spring.data[k]);
+    if (!rc.memory.data.empty()) hash.add(rc.memory.data[k]);
   }
   const Bodies& b = std::get<Bodies>(world_);
   for (std::size_t k = 0; k < b.rows(); ++k) {

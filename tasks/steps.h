@@ -13,12 +13,12 @@ void add_sdem(Task&, const World&, const Model&, bool initial = false);
 // One step of nonsmooth DEM. With `initial` it lists the contacts of the state as it stands and gives them their elastic forces.
 void add_ndem(Task&, const World&, const Model&, bool initial = false);
 
-// What both share. `columns` of the contacts between particles; of those, springs and rolling moments are history.
+// What both share. `columns` of the contacts; of those, springs, memories and as a rule rolling moments are history.
 void add_collision(Task&, const World&, const Model&, const Effects&, const ContactColumns& columns, double time_step);
 void add_integrate(Task&, const Model&, const Effects&, double time_step);
 
-// Points where bodies touch each other, and those less than `margin` [m] apart; with `history` they remember.
-void add_rigid_collision(Task&, const World&, const Effects&, double margin, bool history);
+// Points where bodies touch each other, and those less than `margin` [m] apart; with `springs` or the effect `memory` they remember.
+void add_rigid_collision(Task&, const World&, const Effects&, double margin, bool springs);
 
 // Contact force kernels, one template instance per combination of laws (tasks/force_kernels.cpp).
 void add_force_calculation(Task&, const World&, const Model&, const Effects&, double time_step);

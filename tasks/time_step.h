@@ -18,8 +18,10 @@ struct TimeStepAdvice {
 
 // For a scene whose fastest impact has `speed` [m/s]: the stiffest pair of the smallest particle.
 //   overlap        g = (5 m_eff v^2 / (4 k_H))^(2/5)                        elastic Hertz impact
+//                  g = v sqrt(m_eff / k_1)                                  linear laws, k_1 = k_n
 //   contact time   t_c = 2.9432 g / v                                       Hertz 1882; Landau & Lifshitz, Elasticity, sec. 9
-//   packing        h < 2 / omega_max, omega_max^2 ~ 8 k_tan / m, k_tan = 2 E* sqrt(R_eff g)     eq (2.6), derived for Hertz
+//                  t_c = pi/2 (sqrt(m_eff / k_1) + sqrt(m_eff / k_2))       linear laws; Walton & Braun: k_2 = k_1 / e^2, else k_1
+//   packing        h < 2 / omega_max, omega_max^2 ~ 8 k_tan / m, k_tan = 2 E* sqrt(R_eff g), or k_2     eq (2.6), derived for Hertz
 //   dashpots       h < 2 / lambda, lambda the largest eigenvalue of M^-1 C over the dashpots of a packing (kernels/integrate.h)
 // The step is the least of t_c / 40, a tenth of the springs' limit and 0.4 of the dashpots'; more than t_c / 10, half of the
 // springs' limit or 0.9 of the dashpots' is refused. A dynamic body counts as particles of its mass per contact; where

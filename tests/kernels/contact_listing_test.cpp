@@ -107,8 +107,8 @@ TEST(ContactListing, OnlyTheColumnsThatLawsNeed) {
   World w = random_spheres(60, 3, 1);
   search(w, OpenSpace{});
   const Contacts& c = std::get<Contacts>(w);
-  for (int bits = 0; bits < 16; ++bits) {
-    const ContactColumns columns{bool(bits & 1), bool(bits & 2), bool(bits & 4), bool(bits & 8)};
+  for (int bits = 0; bits < 32; ++bits) {
+    const ContactColumns columns{bool(bits & 1), bool(bits & 2), bool(bits & 4), bool(bits & 8), true, bool(bits & 16)};
     const std::size_t n = listed(w, OpenSpace{}, columns).size();
     ASSERT_GT(n, 0u);
     EXPECT_EQ(c.force.data.size(), n);
@@ -116,6 +116,7 @@ TEST(ContactListing, OnlyTheColumnsThatLawsNeed) {
     EXPECT_EQ(c.spring.data.size(), columns.spring ? n : 0);
     EXPECT_EQ(c.rolling.data.size(), columns.rolling ? n : 0);
     EXPECT_EQ(c.arm_ratio.data.size(), columns.arm_ratio ? n : 0);
+    EXPECT_EQ(c.memory.data.size(), columns.memory ? n : 0);
   }
 }
 
@@ -129,10 +130,10 @@ TEST(ContactListing, KeepsTheOldListUntilAListingIsDue) {
   EXPECT_EQ(std::get<Contacts>(w).rows(), before.size());
 }
 
-struct History { Vec3 spring, rolling; };
+struct History { Vec3 spring, rolling; ContactMemory memory; };
 
 // Listings one after another, some after a search, some after the rows were sorted: what stays listed keeps its history.
-template <bool spring, bool rolling> void expect_history_kept() {
+template <bool spring, bool rolling, bool memory = false> void expect_history_kept() {
   World w = random_spheres(400, 7, 12);
   Particles& p = std::get<Particles>(w);
   Contacts& c = std::get<Contacts>(w);
@@ -153,8 +154,8 @@ template <bool spring, bool rolling> void expect_history_kept() {
     const auto& rows = p.previous_row.data;
     sorted += s.reordered.data[0] && !std::is_sorted(rows.begin(), rows.end());
     if (s.due.data[0]) search(w, OpenSpace{});
-    listed(w, OpenSpace{}, {true, spring, rolling, true});
-    call(ContactHashing<spring, rolling>{}, w);
+    listed(w, OpenSpace{}, {true, spring, rolling, true, true, memory});
+    call(ContactHashing<spring, rolling, memory>{}, w);
 
     std::map<std::pair<Index, Index>, History> now;
     for (std::size_t k = 0; k < c.rows(); ++k) {
@@ -166,6 +167,11 @@ template <bool spring, bool rolling> void expect_history_kept() {
       came_back += !known && !ever.insert(pair).second;
       if constexpr (spring) { EXPECT_EQ(c.spring.data[k], want.spring); c.spring.data[k] = any(); now[pair].spring = c.spring.data[k]; }
       if constexpr (rolling) { EXPECT_EQ(c.rolling.data[k], want.rolling); c.rolling.data[k] = any(); now[pair].rolling = c.rolling.data[k]; }
+      if constexpr (memory) {
+        EXPECT_EQ(c.memory.data[k], want.memory);
+        c.memory.data[k] = {normal(random), any(), any(), any()};
+        now[pair].memory = c.memory.data[k];
+      }
     }
     before = std::move(now);
   }
@@ -178,6 +184,7 @@ template <bool spring, bool rolling> void expect_history_kept() {
 TEST(ContactListing, HistoryIsKeptOfWhatStaysListed) { expect_history_kept<true, true>(); }
 TEST(ContactListing, HistoryOfSpringsAlone) { expect_history_kept<true, false>(); }
 TEST(ContactListing, HistoryOfRollingAlone) { expect_history_kept<false, true>(); }
+TEST(ContactListing, HistoryOfAChosenLaw) { expect_history_kept<false, false, true>(); }
 
 }  // namespace
 }  // namespace skred

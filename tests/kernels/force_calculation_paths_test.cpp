@@ -156,6 +156,35 @@ TEST(PairForces, EveryPathGivesTheBitsOfTheScalarOne) {
   SKRED_FOR_EACH_LAW(SKRED_COMPARE)
 }
 
+// Hertz with springs as a law chosen at run time: the bits of the packed ones, its history in another column; the same loop for every path.
+template <class Space> void compare_chosen(const Space& space) {
+  constexpr std::size_t count = 500;
+  const Pairs pairs(count, space, true, 6);
+  const VariousParticles packed = three_materials();
+  ChosenParticles particles{3, {}};
+  for (const LawCoefficients& k : packed.coefficients) particles.coefficients.push_back({k});
+  const Results want = pairs.after(PairForces<FrictionAndRolling<true>, VariousParticles, Space>{{}, packed, space, time_step}, VectorPath::scalar, 0, count);
+  const PairForces<ChosenBothMemory, ChosenParticles, Space> chosen{{}, particles, space, time_step};
+  for (const VectorPath path : vector_paths()) {
+    Results got = pairs.start;
+    Buffer<ContactMemory> memory(count);
+    for (std::size_t k = 0; k < count; ++k) memory[k] = {0, pairs.start.spring[k], {}, pairs.start.rolling[k]};
+    pair_loop<PairForces<ChosenBothMemory, ChosenParticles, Space>>(path)(
+        chosen, {pairs.i.data(), pairs.j.data(), pairs.position.data(), pairs.velocity.data(), pairs.spin.data(), pairs.radii.data(), pairs.masses.data(),
+                 pairs.material.data(), got.force.data(), got.torque.data(), got.arm_ratio.data(), nullptr, got.rolling.data(), memory.data()}, 0, count);
+    for (std::size_t k = 0; k < count; ++k) {
+      got.spring[k] = memory[k].tangential;
+      ASSERT_EQ(got.rolling[k], memory[k].rolling);
+    }
+    EXPECT_TRUE(same_bits(got, want, 0, count)) << name_of(path);
+  }
+}
+
+TEST(PairForces, ChosenHertzAndSpringsHaveTheBitsOfThePackedOnes) {
+  compare_chosen(OpenSpace{});
+  compare_chosen(PeriodicSpace{{0, 0, 0}, {edge, edge, std::numeric_limits<double>::infinity()}});
+}
+
 // The pairs above hold every case, on the scalar path: what the others are compared with makes sense.
 TEST(PairForces, CasesOfThePairs) {
   const Pairs pairs(4000, OpenSpace{}, false, 5);

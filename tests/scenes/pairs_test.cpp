@@ -34,6 +34,39 @@ particles: [{list: [{material: a, radius: 1, position: [0, 0, 0]}]}]
   EXPECT_NEAR(t(0, 0).young_eff, 1e6 / (2 * (1 - 0.0625)), 1e-9 * 1e6);
 }
 
+// Coefficients that only some laws need: of the pair, else the mean of both materials', else none.
+TEST(Pairs, CoefficientsOfSomeLaws) {
+  const std::string scene = R"(
+end_time: 1
+materials:
+  - {name: a, density: 1, youngs_modulus: 1 MPa, normal_stiffness: 4 kN/m, rolling_damping: 0.4}
+  - {name: b, density: 1, youngs_modulus: 1 MPa, normal_stiffness: 1 kN/m, rolling_damping: 0.1}
+  - {name: c, density: 1, youngs_modulus: 1 MPa}
+particles: [{list: [{material: a, radius: 1, position: [0, 0, 0]}]}]
+)";
+  const std::string pairs = "pairs: [{between: [c, c], normal_stiffness: 5}, {between: [a, c], normal_stiffness: 6}";
+  const PairTable t = resolve_pairs(parse_scene(scene + pairs + ", {between: [c, b], normal_stiffness: 7, rolling_damping: 0.3}]", "s.yaml",
+                                                {.overrides = {{"contact.normal", "linear"}}}));
+  EXPECT_EQ(t(0, 1).normal_stiffness, 2000);
+  EXPECT_EQ(t(0, 2).normal_stiffness, 6);
+  EXPECT_EQ(t(1, 2).normal_stiffness, 7);
+  EXPECT_EQ(t(2, 2).normal_stiffness, 5);
+  EXPECT_EQ(t(0, 1).rolling_damping, 0.2);
+  EXPECT_EQ(t(1, 2).rolling_damping, 0.3);
+  EXPECT_EQ(t(0, 0).damping_time, 0);
+  EXPECT_EQ(errors_of(scene + pairs + "]\ncontact: {normal: linear}\n"),
+            "s.yaml:9:19: error: contact.normal: linear needs normal_stiffness, and the pair b, c has none: give it to both materials, or to the pair\n"
+            "  contact: {normal: linear}\n                    ^");
+  EXPECT_EQ(errors_of(scene + pairs + "]\n"), "");              // Hertz does not need it
+  for (const auto& [laws, name] : {std::pair{"normal: walton_braun", "normal_stiffness"}, {"normal: kuwabara_kono", "damping_time"},
+                                   {"tangential: viscous", "tangential_damping"}, {"tangential: haff_werner", "tangential_damping"},
+                                   {"rolling: viscous", "rolling_viscosity"}}) {
+    const std::string with = head + one_particle + "contact: {" + laws + "}\n";
+    EXPECT_NE(errors_of(with).find(std::string(" needs ") + name + ", and material 'pellet' has none"), std::string::npos) << errors_of(with);
+    EXPECT_EQ(errors_of(with + "method: ndem\n"), "") << laws;   // which has rows of its own
+  }
+}
+
 TEST(Pairs, BadPairs) {
   const auto error = [](const std::string& pairs) { return errors_of(head + one_particle + "pairs: " + pairs + "\n"); };
   EXPECT_NE(error("[{between: [pellet, steel]}]").find("there is no material 'steel'"), std::string::npos);

@@ -68,9 +68,10 @@ contact: {normal: none, tangential: none, rolling: none}
 periodic: {y: ["= -1 / n", "= 1 / n"]}
 bounds: {min: [-9, -9, -9], max: [9, 9, 9], action: report}
 materials:
-  - {name: a, density: 1, youngs_modulus: 1, poissons_ratio: -0.5, restitution: 0, friction: 1, rolling_friction: 1}
-  - {name: b, density: 1, youngs_modulus: 1}
-pairs: [{between: [b, a], restitution: 0.1, rolling_friction: 0}]
+  - {name: a, density: 1, youngs_modulus: 1, poissons_ratio: -0.5, restitution: 0, friction: 1, rolling_friction: 1,
+     rolling_damping: 0.3, rolling_damping_at_limit: 1, normal_stiffness: 3, tangential_damping: 0, rolling_viscosity: 2}
+  - {name: b, density: 1, youngs_modulus: 1, damping_time: 2}
+pairs: [{between: [b, a], restitution: 0.1, rolling_friction: 0, normal_stiffness: 1, damping_time: 0, rolling_damping: 0.1}]
 particles:
   - lattice: {material: b, radius: {min: 0.01, max: 0.03}, min: [0, 0, 0], max: [1, 1, 1], spacing: 0.1, jitter: 0.01,
               cylinder: {point: [0.5, 0.5, 0], axis: [1, 1, 5], radius: 0.3}, velocity: [1, 2, 3], angular_velocity: [0, 1, 0]}

@@ -243,7 +243,7 @@ def case_graph(program):
 
 
 def case_other_verbs(program):
-    for name in ("hello", "drum", "silo"):
+    for name in ("hello", "drum", "silo", "laws"):
         contains(program("validate", scene(name)).stdout, [f"scene '{name}' is sound", "time step"])
     schema = json.loads(program("schema").stdout)
     assert schema["type"] == "object" and "materials" in schema["properties"]
@@ -255,6 +255,27 @@ def case_other_verbs(program):
     contains(program("--version").stdout, ["skred 0."])
     contains(program("--help").stdout, ["run", "graph", "validate"])
     contains(program("run", "--help").stdout, ["--threads", "--vector", "auto|scalar|sse2|avx2|avx512", "--trace-steps", "--summary"])
+
+
+def case_contact_laws(program):
+    """Every contact law can be named on the command line, gives its own motion, and the log says what it does not use."""
+    def run(*laws, code=0, says=(), method="sdem"):
+        names = [w for pair in zip(("normal", "tangential", "rolling"), laws) for w in ("--set", "contact.%s=%s" % pair)]
+        return program.run(scene("laws"), *names, "--method", method, "--end-time", "0.1 s", "--overwrite", code=code, says=says)
+    hashes = set()
+    laws = [(n, "spring", "spring") for n in ("hertz", "linear", "kuwabara_kono", "walton_braun")]
+    laws += [("hertz", t, "spring") for t in ("coulomb", "viscous", "haff_werner", "walton_braun", "none")]
+    laws += [("linear", "spring", r) for r in ("constant_torque", "viscous", "none")]
+    for law in laws:
+        run(*law)
+        hashes.add(state_hash())
+        assert summary()["max_overlap_ratio"] < 0.3, law
+    assert len(hashes) == len(laws), hashes
+    contains(read("out", "log.txt"), ["given, but not used by contact: {normal: linear, tangential: spring, rolling: none}: rolling_friction, damping_time"])
+    run("walton_braun", "coulomb", "none", method="ndem", says=["are laws of smooth DEM"])
+    contains(program("graph", scene("laws"), "--set", "contact.normal=linear").stdout, ["normal: linear, tangential: spring, rolling: spring"])
+    contains(program("explain", "contact.tangential").stdout, ["haff_werner", "default spring"])
+    contains(program("models").stdout, ["kuwabara_kono", "walton_braun", "constant_torque", "rolling_viscosity", "N s/m"])
 
 
 def case_wrong_usage(program):

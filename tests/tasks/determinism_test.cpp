@@ -83,6 +83,60 @@ Lab periodic_cloud() {
   return l;
 }
 
+// The same with laws chosen at run time; together they have every part and every kind of history.
+Lab stirred_under(const ContactModel& contact, double friction = 0.5, double rolling = 0.2, double e = 0.4) {
+  Lab l = stirred(friction, rolling, e);
+  l.model.contact = contact;
+  PairCoefficients& p = l.model.pairs.values[0];
+  p.normal_stiffness = 3000, p.damping_time = 1e-4;
+  p.tangential_damping = friction, p.rolling_viscosity = rolling, p.rolling_damping = p.rolling_damping_at_limit = 0.3;
+  return l;
+}
+const ContactModel some_laws[] = {
+    {NormalLaw::walton_braun, TangentialLaw::walton_braun, RollingLaw::spring},
+    {NormalLaw::linear, TangentialLaw::haff_werner, RollingLaw::viscous},
+    {NormalLaw::kuwabara_kono, TangentialLaw::spring, RollingLaw::constant_torque},
+    {NormalLaw::walton_braun, TangentialLaw::coulomb, RollingLaw::none},
+    {NormalLaw::hertz, TangentialLaw::viscous, RollingLaw::spring},
+};
+std::string name_of(const ContactModel& c) { return std::string(word_of(c.normal)) + " " + word_of(c.tangential) + " " + word_of(c.rolling); }
+
+class ChosenLaws : public ::testing::TestWithParam<ContactModel> {};
+
+TEST_P(ChosenLaws, SerialListGraphAndShuffledOrder) { expect_the_same_in_any_order(stirred_under(GetParam()), 150); }
+
+// What the others compare is not empty.
+TEST_P(ChosenLaws, HaveTouchingContactsAndTheirHistory) {
+  const auto s = stirred_under(GetParam()).build();
+  s->start();
+  for (int k = 0; k < 150; ++k) s->step(Execution::serial);
+  const Contacts& c = std::get<Contacts>(s->world());
+  const auto count = [](const auto& column, const auto& nothing) {
+    return std::count_if(column.begin(), column.end(), [&](const auto& x) { return !(x == nothing); });
+  };
+  EXPECT_TRUE(s->effects().chosen);
+  EXPECT_GT(count(c.force.data, Vec3{}), 20);
+  EXPECT_EQ(s->effects().memory, !c.memory.data.empty());
+  if (s->effects().memory) EXPECT_GT(count(c.memory.data, ContactMemory{}), 20);
+}
+
+TEST_P(ChosenLaws, AnySkinVectorPathAndReordering) {
+  Lab l = stirred_under(GetParam());
+  const std::uint64_t reference = hash_after(l, 300, 2, Execution::graph);
+  for (const double skin : {0.02, 1.5}) {
+    l.model.skin = skin * pellet_radius;
+    l.model.reorder_every = skin < 1 ? 1 : 0;
+    l.model.vector_path = skin < 1 ? VectorPath::scalar : best_vector_path();
+    EXPECT_EQ(hash_after(l, 300, 2, Execution::graph), reference) << skin;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Determinism, ChosenLaws, ::testing::ValuesIn(some_laws), [](const auto& law) {
+  std::string name = name_of(law.param);
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name;
+});
+
 TEST(Determinism, VectorPathsGiveTheSameBits) {
   for (Lab l : {stirred(), periodic_cloud()}) {
     l.model.vector_path = VectorPath::scalar;
@@ -163,6 +217,49 @@ TEST_P(EffectLeftOutNonsmooth, EqualsItsParameterAtZero) {
 INSTANTIATE_TEST_SUITE_P(Effects, EffectLeftOutNonsmooth,
                          ::testing::Values(Parameters{0, 0, 0.18}, Parameters{0.5, 0, 0.18}, Parameters{0, 0.3, 0.18},
                                            Parameters{0.5, 0.3, 0}, Parameters{0, 0, 0}));
+
+TEST(Effects, PartOfAChosenLawLeftOutEqualsItsParameterAtZero) {
+  for (const ContactModel& c : some_laws)
+    for (const auto& [friction, rolling] : {std::pair{0.0, 0.2}, {0.5, 0.0}, {0.0, 0.0}}) {
+      SCOPED_TRACE(name_of(c));
+      Lab lean = stirred_under(c, friction, rolling), full = lean;
+      for (Lab* l : {&lean, &full}) l->model.pairs.values[0].rolling_damping_at_limit = 0;
+      full.model.all_effects = true;
+      if (c.rolling == RollingLaw::none && friction > 0) continue;   // nothing to leave out
+      expect_same_trajectory(lean, full, 150);
+      if (friction == 0 && rolling == 0) {                     // `none` in the scene is the same again
+        Lab none = lean;
+        none.model.contact.tangential = TangentialLaw::none;
+        none.model.contact.rolling = RollingLaw::none;
+        expect_same_trajectory(none, full, 150);
+      }
+    }
+}
+
+// Which laws a scene has decides what its step has.
+TEST(Effects, ChosenLawsBringTheirHistoryOnly) {
+  const auto kernels = [](const ContactModel& c) {
+    const auto s = stirred_under(c).build();
+    std::string all;
+    for (std::size_t k = 0; k < s->task().size(); ++k) all += std::string(" ") + s->task().name(k);
+    return all;
+  };
+  const auto effects = [](const ContactModel& c) { return stirred_under(c).build()->effects(); };
+  for (const ContactModel& c : {ContactModel{NormalLaw::linear, TangentialLaw::coulomb, RollingLaw::viscous},
+                                ContactModel{NormalLaw::kuwabara_kono, TangentialLaw::haff_werner, RollingLaw::constant_torque}}) {
+    EXPECT_EQ(kernels(c).find("contact_hashing "), std::string::npos) << name_of(c);
+    EXPECT_FALSE(effects(c).history);
+    EXPECT_TRUE(effects(c).rotation);
+  }
+  const ContactModel smooth{NormalLaw::linear, TangentialLaw::none, RollingLaw::none};
+  EXPECT_FALSE(effects(smooth).rotation);
+  EXPECT_FALSE(effects(smooth).history);
+  const ContactModel remembering{NormalLaw::walton_braun, TangentialLaw::none, RollingLaw::none};
+  EXPECT_NE(kernels(remembering).find("contact_hashing "), std::string::npos);
+  EXPECT_FALSE(effects(remembering).rotation);
+  EXPECT_TRUE(effects({}).chosen);                           // the rolling spring's dashpot is not of the packed laws
+  EXPECT_FALSE(stirred().build()->effects().chosen);
+}
 
 TEST(Effects, AlikeParticlesEqualLookedUpOnes) {
   Lab l(0.18, 0.5, 0.1);
