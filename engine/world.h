@@ -14,7 +14,7 @@ namespace skred {
 
 // One row per sphere. Rows are re-sorted in space now and then; `id` stays.
 struct Particles {
-  Column<Index>      id{"id", "1"};                                // 0 .. count-1, unique
+  Column<Index>      id{"id", "1"};                                // unique; 0 .. count-1 until particles are removed
   Column<Vec3>       position{"position", "m"};
   Column<Vec3>       velocity{"velocity", "m/s"};
   Column<Vec3>       angular_velocity{"angular_velocity", "rad/s"};
@@ -30,14 +30,15 @@ struct Particles {
   Column<double>     search_margin{"search_margin", "m"};          // ... and how far from there it may go before the next search
   Column<Vec3>       listed{"position_at_listing", "m"};           // where it was when contacts were last listed ...
   Column<double>     list_margin{"list_margin", "m"};              // ... and how far from there it may go before the next listing
-  Column<Index>      previous_row{"row_before_reorder", "1"};      // its row before the rows were last sorted
+  Column<Index>      previous_row{"row_before_reorder", "1"};      // its row before the rows last changed; no_index: it is new
+  Column<Vec3>       before{"position_before", "m"};               // in the step before; empty unless crossings are counted
   std::size_t rows() const { return position.data.size(); }
   static constexpr auto columns() {
     return std::tuple{&Particles::id, &Particles::position, &Particles::velocity, &Particles::angular_velocity,
                       &Particles::orientation, &Particles::force, &Particles::torque,
                       &Particles::previous_force, &Particles::previous_torque, &Particles::radius,
                       &Particles::mass, &Particles::material, &Particles::searched, &Particles::search_margin,
-                      &Particles::listed, &Particles::list_margin, &Particles::previous_row};
+                      &Particles::listed, &Particles::list_margin, &Particles::previous_row, &Particles::before};
   }
 };
 
@@ -322,7 +323,8 @@ enum class Trouble : std::uint32_t { none = 0, not_finite, too_fast, out_of_boun
 struct Search {
   Column<char>         due{"search_due", "1", {1}};                // neighbours must be searched for in this step
   Column<char>         list_due{"listing_due", "1", {1}};          // contacts must be listed anew in this step
-  Column<char>         reordered{"reordered", "1", {0}};           // the rows of the particles were sorted in this step
+  Column<char>         rows_changed{"rows_changed", "1", {0}};     // particles came or went since the rows were last looked at
+  Column<char>         reordered{"reordered", "1", {0}};           // in this step particles came or went, or their rows were sorted
   Column<std::int64_t> count{"searches", "1", {0}};                // searches so far, this one included
   Column<std::int64_t> listings{"listings", "1", {0}};             // of contacts, this one included
   Column<double>       reach{"reach", "m", {0}};                   // greatest distance of a particle from the origin at the last search
@@ -331,12 +333,45 @@ struct Search {
   Column<std::int64_t> outside{"outside", "1", {0}};               // particles outside the bounds
   std::size_t rows() const { return 1; }
   static constexpr auto columns() {
-    return std::tuple{&Search::due, &Search::list_due, &Search::reordered, &Search::count, &Search::listings, &Search::reach,
-                      &Search::trouble, &Search::culprit, &Search::outside};
+    return std::tuple{&Search::due, &Search::list_due, &Search::rows_changed, &Search::reordered, &Search::count, &Search::listings,
+                      &Search::reach, &Search::trouble, &Search::culprit, &Search::outside};
   }
 };
 
+// What was taken out so far: one row per remover (kernels/remove_particles.h).
+struct Removed {
+  Column<std::int64_t> count{"removed", "1"};
+  Column<double>       mass{"removed_mass", "kg"};
+  std::size_t rows() const { return count.data.size(); }
+  static constexpr auto columns() { return std::tuple{&Removed::count, &Removed::mass}; }
+};
+
+// What was created so far: one row per inflow (kernels/emit_particles.h).
+struct Created {
+  Column<std::int64_t> count{"created", "1"};
+  Column<double>       mass{"created_mass", "kg"};
+  Column<std::int64_t> trials{"trial_places", "1"};                // places that were tried
+  Column<std::int64_t> waiting{"waiting", "1"};                    // particles that are due and have found no room yet
+  std::size_t rows() const { return count.data.size(); }
+  static constexpr auto columns() { return std::tuple{&Created::count, &Created::mass, &Created::trials, &Created::waiting}; }
+};
+
+// What crossed an area so far, along its normal less against it: one row per area (kernels/count_crossings.h).
+struct Crossed {
+  Column<std::int64_t> count{"crossed", "1"};
+  Column<double>       mass{"crossed_mass", "kg"};
+  std::size_t rows() const { return count.data.size(); }
+  static constexpr auto columns() { return std::tuple{&Crossed::count, &Crossed::mass}; }
+};
+
+// One row: ids are given once.
+struct Population {
+  Column<Index> next_id{"next_id", "1", {0}};
+  std::size_t rows() const { return 1; }
+  static constexpr auto columns() { return std::tuple{&Population::next_id}; }
+};
+
 using World = std::tuple<Particles, Neighbours, Neighbourhood, Contacts, PreviousContacts, Incidence, BodyContacts, PreviousBodyContacts, BodyIncidence, Triangles,
-                         Bodies, Geometries, RigidPairs, RigidContacts, CellGrid, SolverBodies, ContactBlocks, HubContacts, Solver, Clock, Search>;
+                         Bodies, Geometries, RigidPairs, RigidContacts, CellGrid, SolverBodies, ContactBlocks, HubContacts, Solver, Clock, Search, Removed, Created, Crossed, Population>;
 
 }  // namespace skred

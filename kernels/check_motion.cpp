@@ -41,7 +41,7 @@ void CheckMotion<Space>::operator()(Parallel parallel, Read<&Particles::id> id, 
     Update<&Particles::search_margin> search_margin, Update<&Particles::listed> listed, Update<&Particles::list_margin> list_margin,
     Read<&Bodies::motion> motion, Read<&Bodies::pose> pose, Read<&Bodies::velocity> wall_velocity,
     Read<&Bodies::angular_velocity> wall_spin, Read<&Bodies::searched> pose_searched, Read<&Geometries::body> body,
-    Read<&Geometries::shape> shape, Read<&Geometries::local> local, Update<&Search::due> due, Write<&Search::list_due> list_due,
+    Read<&Geometries::shape> shape, Read<&Geometries::local> local, Update<&Search::due> due, Read<&Search::rows_changed> rows_changed, Write<&Search::list_due> list_due,
     Update<&Search::count> count, Update<&Search::listings> listings, Update<&Search::reach> reach, Write<&Search::trouble> trouble,
     Write<&Search::culprit> culprit, Write<&Search::outside> outside) const {
   constexpr std::size_t chunk = 1024;
@@ -116,7 +116,7 @@ void CheckMotion<Space>::operator()(Parallel parallel, Read<&Particles::id> id, 
   outside[0] = all.outside;
 
   const bool sound = all.trouble != Trouble::not_finite;     // else there is nowhere to look for partners; the run ends here
-  due[0] = sound && (first || walls_moved > margins.walls);
+  due[0] = sound && (first || rows_changed[0] || walls_moved > margins.walls);
   list_due[0] = sound && (due[0] || all.left_margin || far);
   if (!list_due[0]) return;
 

@@ -42,7 +42,8 @@ template <class Space> struct CheckMotion {
                   Update<&Particles::listed> listed, Update<&Particles::list_margin> list_margin, Read<&Bodies::motion> motion,
                   Read<&Bodies::pose> pose, Read<&Bodies::velocity> wall_velocity, Read<&Bodies::angular_velocity> wall_spin,
                   Read<&Bodies::searched> pose_searched, Read<&Geometries::body> body, Read<&Geometries::shape> shape,
-                  Read<&Geometries::local> local, Update<&Search::due> due, Write<&Search::list_due> list_due,
+                  Read<&Geometries::local> local, Update<&Search::due> due, Read<&Search::rows_changed> rows_changed,
+                  Write<&Search::list_due> list_due,
                   Update<&Search::count> count, Update<&Search::listings> listings, Update<&Search::reach> reach,
                   Write<&Search::trouble> trouble, Write<&Search::culprit> culprit, Write<&Search::outside> outside) const;
 };

@@ -7,11 +7,11 @@
 
 namespace skred {
 
-// The old contacts of a particle, [next, end); empty before the first search.
+// The old contacts of a particle, [next, end); none before the first search, and none of a particle that is new.
 struct OldContacts {
   Index next = 0, end = 0;
   OldContacts(std::span<const Index> first, std::size_t previous_row) {
-    if (!first.empty()) next = first[previous_row], end = first[previous_row + 1];
+    if (!first.empty() && previous_row != no_index) next = first[previous_row], end = first[previous_row + 1];
   }
   // Moves on to the first whose key is at least `key`, and tells whether it is that one.
   bool find(std::span<const Index> keys, Index key) {

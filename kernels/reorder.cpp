@@ -25,15 +25,18 @@ std::uint64_t along(double x, double low, double cell) {
 
 }  // namespace
 
-void Reorder::operator()(Read<&Search::due> due, Read<&Search::count> count, Write<&Search::reordered> reordered,
-                         Resize<Particles> particles) const {
+void Reorder::operator()(Read<&Search::due> due, Read<&Search::count> count, Update<&Search::rows_changed> changed,
+                         Write<&Search::reordered> reordered, Resize<Particles> particles) const {
   const std::size_t n = particles->rows();
-  reordered[0] = due[0] && every > 0 && (count[0] - 1) % every == 0 && n > 0;
-  if (!reordered[0]) return;
+  const bool sorts = due[0] && every > 0 && (count[0] - 1) % every == 0 && n > 0;
+  const bool known = changed[0];                             // previous_row tells of an older order already: it is sorted with the rest
+  reordered[0] = sorts || known;
+  changed[0] = 0;
+  if (!sorts) return;
 
   auto& previous = particles->previous_row.data;
   previous.resize(n);
-  std::iota(previous.begin(), previous.end(), Index{0});
+  if (!known) std::iota(previous.begin(), previous.end(), Index{0});
   const auto& x = particles->position.data;
   Vec3 low = x[0];
   for (const Vec3& p : x) low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};

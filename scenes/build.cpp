@@ -37,7 +37,39 @@ Vec3 solid_inertia(const BodySpec& body) {
   return {};
 }
 
+Inflow inflow_of(const Scene& scene, const InflowSpec& spec, std::size_t which) {
+  Inflow f;
+  f.region = spec.region;
+  f.rate = spec.rate.value_or(0);
+  f.mass_rate = spec.mass_rate.value_or(0);
+  f.start = spec.start;
+  f.end = spec.end;
+  if (spec.number) f.number = *spec.number;
+  f.radius_min = spec.radius.min;
+  f.radius_max = spec.radius.max;
+  f.material = material_index(scene, spec.material);
+  f.density = scene.materials[f.material].bulk.density;
+  f.velocity = spec.velocity;
+  f.angular_velocity = spec.angular_velocity;
+  f.seed = spec.seed.value_or(scene.seed);
+  f.stream = (std::uint64_t{1} << 32) + which;      // beside those of the lattices (scenes/fill.cpp)
+  return f;
+}
+
 }  // namespace
+
+std::optional<Region> region_of(const ProbeSpec& probe) {
+  return std::visit([](const auto& place) -> std::optional<Region> {
+    if constexpr (std::is_constructible_v<Region, decltype(place)>) return Region{place};
+    else return {};
+  }, probe.place);
+}
+std::optional<Area> area_of(const ProbeSpec& probe) {
+  return std::visit([](const auto& place) -> std::optional<Area> {
+    if constexpr (std::is_constructible_v<Area, decltype(place)>) return Area{place};
+    else return {};
+  }, probe.place);
+}
 
 World build_world(const Scene& scene, const ParticleSet& set) {
   World w;
@@ -101,6 +133,10 @@ Model build_model(const Scene& scene) {
     for (const MotionSpec& s : body.pieces)
       pieces.push_back({s.start, s.end, s.velocity, s.angular_velocity * s.axis, s.point});
   }
+  for (const RemoveSpec& r : scene.remove) m.removers.push_back({r.region, r.start, r.end, r.interval});
+  for (const InflowSpec& f : scene.inflow) m.inflows.push_back(inflow_of(scene, f, m.inflows.size()));
+  for (const ProbeSpec& p : scene.probes)
+    if (const auto area = area_of(p)) m.areas.push_back(*area);
   return m;
 }
 

@@ -9,4 +9,8 @@ namespace skred {
 World build_world(const Scene&, const ParticleSet&);
 Model build_model(const Scene&);                    // without the time step
 
+// The place of a probe: one of the two.
+std::optional<Region> region_of(const ProbeSpec&);
+std::optional<Area> area_of(const ProbeSpec&);
+
 }  // namespace skred

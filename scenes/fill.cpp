@@ -2,9 +2,9 @@
 #include "scenes/fill.h"
 #include <algorithm>
 #include <cmath>
+#include "engine/random.h"
 #include "scenes/diagnostic.h"
 #include "scenes/particle_file.h"
-#include "scenes/random.h"
 
 namespace skred {
 namespace {
@@ -73,7 +73,7 @@ ParticleSet make_particles(const Scene& scene) {
         add(set, p.position, p.velocity, p.angular_velocity, p.radius, index_of(scene, p.material));
     if (const auto* file = std::get_if<ParticleFile>(&source)) read_particle_file(scene, *file, set);
   }
-  if (set.size() == 0) throw SceneError({{scene.file, "the scene has no particles: every source is empty", "", 0}});
+  if (set.size() == 0 && scene.inflow.empty()) throw SceneError({{scene.file, "the scene has no particles: every source is empty", "", 0}});
   if (double(set.size()) > max_particles) throw SceneError({{scene.file, "more than 4294967294 particles", "", 0}});
   return set;
 }

@@ -26,7 +26,7 @@ std::array<std::size_t, 3> lattice_sites(const LatticeFill&);
 
 // All particles, sources in order. A lattice runs along x fastest, then y, then z; a file in the order of its ids, or of its
 // rows. A lattice's jittered sphere stays whole inside the box. Throws SceneError for what is wrong in a particle file, and
-// if there is no particle at all.
+// if there is no particle at all and no inflow.
 ParticleSet make_particles(const Scene&);
 
 }  // namespace skred

@@ -62,7 +62,7 @@ void note_laws(const Scene& scene, Prepared& p) {
 }
 
 void check_periodic(const Scene& scene, const World& world, const Model& model) {
-  const double least = 2 * (2 * largest_radius(world) + 2 * margins_of(world, model).largest);
+  const double least = 2 * (2 * largest_radius(world, model) + 2 * margins_of(world, model).largest);
   for (int a = 0; a < 3; ++a)
     if (const PeriodicSpec& p = scene.periodic[a]; p.on && p.max - p.min < least)
       throw SceneRefused(fmt::format("periodic: {}: a length of {:g} m is too short: at least {:g} m, twice the reach of a particle "

@@ -37,6 +37,7 @@ class Reader {
   Diagnostics& diagnostics;
   std::filesystem::path folder;                  // of the scene file: where its relative paths start
   std::vector<std::string> materials, bodies;    // their names, as they are read
+  std::vector<std::string> flows;                // of removers, inflows and probes
   std::vector<std::string> keys;                 // of the mappings around the value being read; the last one is named in errors
 
   void error(const Mark& at, const std::string& message);          // "key: message"

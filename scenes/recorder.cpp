@@ -1,4 +1,5 @@
 #include "scenes/recorder.h"
+#include "scenes/flow_statistics.h"
 
 namespace skred {
 
@@ -13,6 +14,7 @@ FrameHeader header_of(const Scene& scene, const Simulation& sim) {
   h.method = method_word(scene.method);
   h.software = "skred " SKRED_VERSION;
   h.time_step = sim.model().time_step;
+  h.changing = sim.effects().removal || sim.effects().inflow;
   for (const Index r : rows_by_id(p)) {
     h.radius.push_back(p.radius.data[r]);
     h.mass.push_back(p.mass.data[r]);
@@ -106,6 +108,7 @@ StatisticsRow statistics_row(const Scene& scene, const Simulation& sim, const Me
     add("impact_residual", "1", s.impact_residual.data[0]);
     add("steps_unsolved", "1", double(s.unsolved.data[0]));
   }
+  add_flow_statistics(scene, sim, r);
   for (std::size_t b = 0; b < m.loads.size(); ++b) {
     const std::string& body = scene.bodies[b].name;
     const auto add_vector = [&](const char* what, const char* unit, const Vec3& v) {

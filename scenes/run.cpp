@@ -15,6 +15,7 @@
 #include "profiling/timeline_svg.h"
 #include "profiling/write_file.h"
 #include "scenes/errors.h"
+#include "scenes/flow_statistics.h"
 #include "scenes/interrupt.h"
 #include "scenes/machine.h"
 #include "scenes/prepare.h"
@@ -67,6 +68,7 @@ struct Run {
   std::int64_t steps = 0, every_frame = 0, every_row = 0;
   Measures last;
   std::int64_t reported_outside = 0;
+  std::int64_t particle_steps = 0;
   Sweeps sweeps;
 };
 
@@ -108,14 +110,22 @@ void add_solver(nlohmann::json& summary, const Run& r, const Timeline::Totals& t
   summary["seconds_per_sweep"] = r.sweeps.contact > 0 ? in_sweeps / double(r.sweeps.contact) : 0;
 }
 
+// An inflow that finds no room does not do so in silence.
+void warn_of_waiting(const Run& r) {
+  const auto& waiting = std::get<Created>(r.sim.world()).waiting.data;
+  for (std::size_t k = 0; k < waiting.size(); ++k)
+    if (waiting[k] > 0)
+      r.log.warn("inflow '{}': {} particle{} due found no room by the end: {} came", r.scene.inflow[k].name, waiting[k],
+                 waiting[k] == 1 ? " that was" : "s that were", std::get<Created>(r.sim.world()).count.data[k]);
+}
+
 nlohmann::json make_summary(const Run& r, const std::string& outcome, double wall, const Timeline::Totals& totals) {
   const std::size_t particles = std::get<Particles>(r.sim.world()).rows();
-  const double steps = double(r.sim.steps_done());
   nlohmann::json summary = {{"scene", r.scene.name}, {"method", method_word(r.scene.method)}, {"outcome", outcome}, {"threads", r.sim.threads()},
           {"vector_path", name_of(r.sim.model().vector_path)}, {"particles", particles},
           {"bodies", std::get<Bodies>(r.sim.world()).rows()}, {"steps", r.sim.steps_done()}, {"time_step", r.sim.model().time_step},
           {"simulated_time", r.sim.time()}, {"wall_time", wall},
-          {"particle_steps_per_second", wall > 0 ? steps * double(particles) / wall : 0.0},
+          {"particle_steps_per_second", wall > 0 ? double(r.particle_steps) / wall : 0.0},
           {"contacts", r.last.contacts + r.last.body_contacts}, {"max_overlap_ratio", r.last.max_overlap_ratio},
           {"kinetic_energy", r.last.kinetic_energy + r.last.rotational_energy}, {"state_hash", hash_text(r.sim.state_hash())},
           {"frames", r.recorder.frames()}, {"searches", std::get<Search>(r.sim.world()).count.data[0]},
@@ -124,6 +134,7 @@ nlohmann::json make_summary(const Run& r, const std::string& outcome, double wal
           {"software", "skred " SKRED_VERSION}, {"processor", processor_name()}, {"compiler", compiler_name()},
           {"load_average", load_average()}, {"kernels", profile_json(totals)}};
   add_solver(summary, r, totals);
+  add_flow_summary(r.scene, r.sim, summary);
   return summary;
 }
 
@@ -163,7 +174,7 @@ void write_pictures(const Run& r) {
     c.processor = processor_name();
     c.particles = std::int64_t(std::get<Particles>(r.sim.world()).rows());
     c.contacts = std::int64_t(r.last.contacts + r.last.body_contacts);
-    c.parts = {{"collision detection and hashing", {"check_motion", "reorder", "broadphase", "contact_listing", "contact_hashing",
+    c.parts = {{"collision detection and hashing", {"count_crossings", "remove_particles", "emit_particles", "check_motion", "reorder", "broadphase", "contact_listing", "contact_hashing",
                                                     "broadphase_body", "contact_hashing_body", "contact_geometry_body",
                                                     "broadphase_body_body", "contact_geometry_body_body"}}};
     if (r.scene.method == Method::ndem)
@@ -196,6 +207,7 @@ bool advance(Run& r, const InterruptGuard& interrupt) {
     r.sim.timeline().begin_step(n);                          // sampling and copying frames are part of the step that does them
     r.sim.step();
     r.sweeps.add(std::get<Solver>(r.sim.world()));
+    r.particle_steps += std::int64_t(std::get<Particles>(r.sim.world()).rows());
     report_outside(r);
     check_trouble(r.scene, r.sim);
     if (n % r.every_row == 0 || n == r.steps) take_row(r);
@@ -302,7 +314,8 @@ int run_scene(const Scene& scene, const RunOptions& options) {
     failed(code == exit_ok ? exit_io : code, outcome, e);
   }
   log.info("\n{}", profile_table(totals, sim.threads()));
-  const double rate = wall > 0 ? double(sim.steps_done()) * double(particles) / wall : 0;
+  warn_of_waiting(r);
+  const double rate = wall > 0 ? double(r.particle_steps) / wall : 0;
   log.info("{} at t = {:g} s: {} steps in {}, {:.2f} million particle-steps per second{}, state hash {}", outcome, sim.time(), sim.steps_done(),
            duration_text(wall), rate * 1e-6, solver_text(r), hash_text(sim.state_hash()));
   return code;

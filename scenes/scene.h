@@ -14,6 +14,7 @@
 #include <vector>
 #include "engine/geometry/shape.h"
 #include "engine/material.h"
+#include "engine/region.h"
 #include "kernels/contact_model.h"
 #include "scenes/check/spec.h"
 #include "tasks/method.h"
@@ -93,6 +94,33 @@ struct BodySpec {
   std::optional<Vec3> inertia;                 // dynamic [kg m^2]; default: of the one sphere, box or cylinder it is made of
 };
 
+// Particles whose centre is in the region are taken out, at every `interval` (0: every step) from start on, before end.
+struct RemoveSpec {
+  std::string name;
+  Region region;
+  double start = 0, end = std::numeric_limits<double>::infinity();   // [s]
+  double interval = 0;                                               // [s] >= 0
+};
+
+// Particles appear in the region, one of `rate` [1/s] and `mass_rate` [kg/s], where they overlap nothing.
+struct InflowSpec {
+  std::string name;
+  Region region;                               // a box or cylinder
+  std::string material;
+  RadiusSpec radius;
+  std::optional<double> rate, mass_rate;
+  std::optional<int> number;                   // most particles
+  double start = 0, end = std::numeric_limits<double>::infinity();   // [s]
+  Vec3 velocity, angular_velocity;
+  std::optional<std::uint64_t> seed;           // empty: the scene's
+};
+
+// A region in which statistics are taken, or an area at which crossings are counted.
+struct ProbeSpec {
+  std::string name;
+  std::variant<BoxRegion, CylinderRegion, HalfSpaceRegion, Disc, Rectangle> place;
+};
+
 inline const char* method_word(Method m) { return m == Method::ndem ? "ndem" : "sdem"; }
 inline const char* method_title(Method m) { return m == Method::ndem ? "nonsmooth DEM" : "smooth DEM"; }
 
@@ -124,6 +152,9 @@ struct Scene {
   std::vector<PairSpec> pairs;
   std::vector<ParticleSource> particles;
   std::vector<BodySpec> bodies;
+  std::vector<RemoveSpec> remove;
+  std::vector<InflowSpec> inflow;
+  std::vector<ProbeSpec> probes;
   struct Start {
     double overlap_limit = 0.01;                     // of the smaller radius
     bool relax = false;                              // push overlapping particles apart before the first step

@@ -330,6 +330,8 @@ void check_contact(Reader& r, const Node& node, const Scene& s) {
 
 void check_scene(Reader& r, const Node& node, Scene& s) {
   check_contact(r, node, s);
+  if (s.particles.empty() && s.inflow.empty())
+    r.error(node, "missing key 'particles' (list of mappings): only a scene with an inflow may start without particles");
   if (s.time_step && *s.time_step > s.end_time)
     if (const Node::Entry* step = node.find("time_step"))
       r.error(step->value, "time_step: " + number_text(*s.time_step) + " s is longer than end_time, " +
@@ -376,9 +378,15 @@ const Section<Scene>& scene_keys() {
           .required(),
       property<S>("pairs", List<PairSpec>{pair_keys, "pair"}, [](const S& s) { return s.pairs; }, check_pairs,
                   "Coefficients of pairs of materials. Any other pair has the geometric means of its materials' values."),
-      key("particles", List<ParticleSource>{source_keys, "source of particles", false}, &S::particles,
-          "Where particles come from.").required(),
+      property<S>("particles", List<ParticleSource>{source_keys, "source of particles", false},
+                  [](const S& s) { return s.particles.empty() ? std::nullopt : std::optional(s.particles); },
+                  [](S& s, std::vector<ParticleSource> v) { s.particles = std::move(v); },
+                  "Where particles come from; required unless the scene has an inflow.").by_default("none, with an inflow"),
       key("bodies", List<BodySpec>{body_keys, "body"}, &S::bodies, "Rigid bodies: walls, drums, tools."),
+      key("remove", List<RemoveSpec>{remove_keys, "region"}, &S::remove, "Regions in which particles are taken out of the simulation."),
+      key("inflow", List<InflowSpec>{inflow_keys, "inflow"}, &S::inflow, "Regions in which particles are created at a given rate."),
+      key("probes", List<ProbeSpec>{probe_keys, "probe"}, &S::probes,
+          "Regions in which statistics are taken, and areas at which crossings are counted: columns NAME.QUANTITY of the statistics."),
       key("start", Map<S::Start>{start_keys}, &S::start, "Before the first step."),
       key("limits", Map<S::Limits>{limit_keys}, &S::limits, "When a run stops as unphysical."),
       key("search", Map<S::SearchSpec>{search_keys}, &S::search, "Tuning of the contact search."),

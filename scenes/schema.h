@@ -1,5 +1,6 @@
 // scenes/schema.h - the table of keys of scene files, and what is made from it. To add a key, add its line to
-// scenes/schema.cpp (the scene, materials, particles) or scenes/body_keys.cpp (rigid bodies).
+// scenes/schema.cpp (the scene, materials, particles) scenes/body_keys.cpp (rigid bodies) or
+// scenes/flow_keys.cpp (removal, inflow, probes).
 #pragma once
 #include <string>
 #include <vector>
@@ -10,6 +11,9 @@ namespace skred {
 
 const Section<Scene>& scene_keys();
 const Section<BodySpec>& body_keys();
+const Section<RemoveSpec>& remove_keys();
+const Section<InflowSpec>& inflow_keys();
+const Section<ProbeSpec>& probe_keys();
 
 // JSON Schema, draft-07, of a scene file: editors complete and check with it.
 std::string json_schema();

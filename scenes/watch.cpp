@@ -1,4 +1,5 @@
 #include "scenes/watch.h"
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include "scenes/errors.h"
@@ -26,7 +27,7 @@ void check_bodies(const Scene& scene, const Simulation& sim) {
                                          when(sim), scene.bodies[k].name, x.x, x.y, x.z, v.x, v.y, v.z, what, sim.model().time_step));
     };
     if (!is_finite(x) || !is_finite(v) || !is_finite(b.angular_velocity.data[k])) fail("not a number");
-    if (const double radius = smallest_radius(sim.world()); !(norm(v) * sim.model().time_step <= radius))
+    if (const double radius = smallest_radius(sim.world(), sim.model()); radius > 0 && !(norm(v) * sim.model().time_step <= radius))
       fail(fmt::format("in one step it moves more than the smallest particle's radius ({:g} m), and through particles", radius));
   }
 }
@@ -39,7 +40,7 @@ void check_trouble(const Scene& scene, const Simulation& sim) {
   if (s.trouble.data[0] == Trouble::none) return;
   const Particles& p = std::get<Particles>(sim.world());
   const Index id = s.culprit.data[0];
-  const Index row = rows_by_id(p)[id];
+  const auto row = std::size_t(std::find(p.id.data.begin(), p.id.data.end(), id) - p.id.data.begin());
   const Vec3 x = p.position.data[row], v = p.velocity.data[row];
   const std::string where = fmt::format("{}, particle {} at ({:g}, {:g}, {:g}) m with ({:g}, {:g}, {:g}) m/s", when(sim), id, x.x, x.y, x.z,
                                         v.x, v.y, v.z);

@@ -14,22 +14,26 @@ template <class V> bool all_equal(const Buffer<V>& v) {
 
 }  // namespace
 
-double largest_radius(const World& w) {
-  const auto& r = std::get<Particles>(w).radius.data;
-  return r.empty() ? 0 : *std::max_element(r.begin(), r.end());
+double largest_radius(const World& w, const Model& m) {
+  double largest = 0;
+  for (const double r : std::get<Particles>(w).radius.data) largest = std::max(largest, r);
+  for (const Inflow& f : m.inflows) largest = std::max(largest, f.radius_max);
+  return largest;
 }
-double smallest_radius(const World& w) {
-  const auto& r = std::get<Particles>(w).radius.data;
-  return r.empty() ? 0 : *std::min_element(r.begin(), r.end());
+double smallest_radius(const World& w, const Model& m) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const double r : std::get<Particles>(w).radius.data) smallest = std::min(smallest, r);
+  for (const Inflow& f : m.inflows) smallest = std::min(smallest, f.radius_min);
+  return std::isfinite(smallest) ? smallest : 0;
 }
 Margins margins_of(const World& w, const Model& m) {
   // Tried on the flowing drum and on beds at rest: a listing every ten steps or so, a search every thirty to a hundred.
   constexpr double list_steps = 10, list_rest = 0.002, search_steps = 40, search_rest = 0.1, largest_skin = 0.8;
-  const double radius = smallest_radius(w);
+  const double radius = smallest_radius(w, m);
   double skin = m.skin > 0 ? m.skin : largest_skin * radius;   // of a pair: what two particles may approach before a search
   if (m.periodic && m.skin == 0) {                             // a particle must not reach two images of another
     const Vec3& box = m.periodic->length;
-    const double room = 0.5 * std::min({box.x, box.y, box.z}) - 2 * largest_radius(w);
+    const double room = 0.5 * std::min({box.x, box.y, box.z}) - 2 * largest_radius(w, m);
     skin = std::clamp(room, least_skin * radius, skin);
   }
   const auto& motion = std::get<Bodies>(w).motion.data;
@@ -42,7 +46,7 @@ StepAhead step_ahead(const World& w, const Model& m) {
   StepAhead ahead{true, m.time_step * m.time_step * norm(m.gravity)};
   if (m.periodic) {                                            // of a pair: half the box less two radii
     const Vec3& box = m.periodic->length;
-    ahead.widest = 0.25 * std::min({box.x, box.y, box.z}) - largest_radius(w);
+    ahead.widest = 0.25 * std::min({box.x, box.y, box.z}) - largest_radius(w, m);
   }
   return ahead;
 }
@@ -58,7 +62,7 @@ double wall_speed(const World& w, const Model& m) {
   }
   return fastest;
 }
-double cell_of(const World& w, const Model& m) { return std::max(m.cell, 2 * largest_radius(w) + 2 * margins_of(w, m).largest); }
+double cell_of(const World& w, const Model& m) { return std::max(m.cell, 2 * largest_radius(w, m) + 2 * margins_of(w, m).largest); }
 
 Effects decide_effects(const World& w, const Model& m) {
   const Particles& p = std::get<Particles>(w);
@@ -83,7 +87,8 @@ Effects decide_effects(const World& w, const Model& m) {
 
   const bool normal = m.contact.normal != NormalLaw::none;
   e.normal = normal;
-  e.contacts = decide("particle-particle contacts", normal && p.rows() > 1, std::to_string(p.rows()) + " particles",
+  e.contacts = decide("particle-particle contacts", normal && (p.rows() > 1 || !m.inflows.empty()),
+                      p.rows() > 1 ? std::to_string(p.rows()) + " particles" : "particles will be created",
                       normal ? "fewer than two particles" : "contact: normal: none");
   e.bodies = decide("rigid bodies", normal && g.rows() > 0,
                     std::to_string(motion.size()) + (motion.size() == 1 ? " body, " : " bodies, ") + std::to_string(g.rows()) +
@@ -148,11 +153,16 @@ Effects decide_effects(const World& w, const Model& m) {
                       e.friction || e.rolling ? "friction or rolling resistance can turn particles" : "the output asks for orientations",
                       "nothing can turn a particle");
   e.orientation = decide("orientation of particles", m.orientation, "the output asks for it", "the output does not ask for it");
-  const bool alike = all_equal(p.radius.data) && all_equal(p.mass.data) && all_equal(p.material.data) && p.rows() > 0;
+  const bool alike = all_equal(p.radius.data) && all_equal(p.mass.data) && all_equal(p.material.data) && p.rows() > 0 && m.inflows.empty();
   e.alike = !nonsmooth && !decide("several radii or materials of particles", !alike || m.all_effects || e.chosen,
-                    !alike ? "particles differ" : m.all_effects ? "kept by effects: all" : "looked up for these laws in any case",
+                    !m.inflows.empty() ? "an inflow may bring others" : !alike ? "particles differ" : m.all_effects ? "kept by effects: all" : "looked up for these laws in any case",
                     "one radius and one material: coefficients are worked out once");
   e.periodic = decide("periodic directions", m.periodic.has_value(), "the scene has some", "the scene has none");
+  const auto several = [](std::size_t n, const char* what) { return std::to_string(n) + " " + what + (n == 1 ? "" : "s"); };
+  e.removal = decide("removal of particles", !m.removers.empty(), several(m.removers.size(), "region"), "the scene has no remove");
+  e.inflow = decide("inflow of particles", !m.inflows.empty(), several(m.inflows.size(), "inflow"), "the scene has no inflow");
+  e.crossings = decide("counts of crossings", !m.areas.empty(), several(m.areas.size(), "probe") + " with a disc or rectangle",
+                       "no probe has a disc or rectangle; regions are measured when statistics are sampled");
   return e;
 }
 

@@ -11,6 +11,8 @@
 #include "engine/world.h"
 #include "kernels/check_motion.h"
 #include "kernels/contact_model.h"
+#include "kernels/emit_particles.h"
+#include "kernels/remove_particles.h"
 #include "tasks/method.h"
 
 namespace skred {
@@ -32,6 +34,9 @@ struct Model {
   int reorder_every = 20;                          // searches; 0: never
   Buffer<Pose> bodies_at_start;                    // by body
   std::vector<std::vector<MotionPiece>> pieces;    // by body; empty unless kinematic
+  std::vector<Remover> removers;                   // take particles out
+  std::vector<Inflow> inflows;                     // create them
+  std::vector<Area> areas;                         // that they cross and are counted at
 };
 
 // Which effects a scene calls for. Decided once, when the task is built; conservative: what can become non-zero stays in.
@@ -43,6 +48,7 @@ struct Effects {
   bool chosen, memory;                             // smooth DEM: a law chosen at run time, and whether it has a history
   bool alike;                                      // one radius, one mass, one material, worked out once: no law looks them up
   bool periodic;
+  bool removal, inflow, crossings;
 
   struct Reason { std::string effect; bool in; std::string why; };
   std::vector<Reason> reasons;                     // for `skred graph`, in order of the list above
@@ -57,7 +63,7 @@ StepAhead step_ahead(const World&, const Model&);
 double impact_speed_of(const Model&);              // v_imp [m/s]
 double wall_speed(const World&, const Model&);     // [m/s] greatest prescribed speed of a body's surface
 double cell_of(const World&, const Model&);
-double largest_radius(const World&);
-double smallest_radius(const World&);
+double largest_radius(const World&, const Model&);    // [m] of the particles, and of those that may come
+double smallest_radius(const World&, const Model&);
 
 }  // namespace skred

@@ -44,7 +44,7 @@ template <bool rolling, class Space> void add_solver(Task& task, const World& w,
     return;
   }
   const RowOptions rows{h, m.solver.damping_steps, impact_speed_of(m), m.gravity, e.impacts};
-  task.add(ConstraintSetup<Space>{space, rows, m.pairs.count, coefficients(m), largest_radius(w)});
+  task.add(ConstraintSetup<Space>{space, rows, m.pairs.count, coefficients(m), largest_radius(w, m)});
   if (e.dynamic_bodies) task.add(ConstraintSetupBody{rows, m.pairs.count, coefficients(m)});
   if (e.impacts)
     task.add(ImpactSolve{e.friction ? options<true, true, false, false>(m, m.solver.impact_iterations)
@@ -61,6 +61,7 @@ template <bool rolling, class Space> void add_solver(Task& task, const World& w,
 void add_ndem(Task& task, const World& world, const Model& model, bool initial) {
   const Effects e = decide_effects(world, model);
   if (initial && e.moving_bodies) task.add(MoveBodies{model.pieces, model.bodies_at_start, model.time_step, 0});
+  if (!initial) add_flow(task, model);
   add_collision(task, world, model, e, {false, e.history, e.rolling, false}, model.time_step);
   add_rigid_collision(task, world, e, model.time_step * expected_speed(world, model), true);
   const auto add = [&](const auto& space) {
@@ -72,6 +73,7 @@ void add_ndem(Task& task, const World& world, const Model& model, bool initial) 
   if (initial) return;
   if (e.bodies) task.add(SweptTest{model.time_step});
   add_integrate(task, model, e, model.time_step);
+  add_crossings(task, model);
   if (e.moving_bodies) task.add(MoveBodies{model.pieces, model.bodies_at_start, model.time_step, model.time_step});
 }
 

@@ -1,6 +1,7 @@
 #include "tasks/sampling.h"
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace skred {
 
@@ -29,6 +30,15 @@ template <class Visit> void for_each_touching_body(const Simulation& sim, const 
   for (const Index r : rows)
     for (Index k = first[r]; k < first[r + 1]; ++k)
       if (c.overlap.data[k] > 0) visit(k, r);
+}
+
+// Touching contacts of each particle, bodies included, by row.
+std::vector<std::uint32_t> coordination_of(const Simulation& sim, const std::vector<Index>& rows) {
+  const Contacts& c = std::get<Contacts>(sim.world());
+  std::vector<std::uint32_t> out(rows.size(), 0);
+  for_each_touching_pair(sim, rows, [&](Index k, double, const Vec3&) { ++out[c.i.data[k]], ++out[c.j.data[k]]; });
+  for_each_touching_body(sim, rows, [&](Index, Index r) { ++out[r]; });
+  return out;
 }
 
 std::vector<BodyLoad> loads_on_bodies(const World& w) {
@@ -87,6 +97,43 @@ Measures measure(const Simulation& sim) {
   return m;
 }
 
+std::vector<RegionMeasures> measure_regions(const Simulation& sim, const std::vector<Region>& regions) {
+  std::vector<RegionMeasures> out(regions.size());
+  if (regions.empty()) return out;
+  const Particles& p = std::get<Particles>(sim.world());
+  const std::vector<Index> rows = rows_by_id(p);
+  const std::vector<std::uint32_t> coordination = coordination_of(sim, rows);
+  for (std::size_t k = 0; k < regions.size(); ++k) {
+    RegionMeasures& m = out[k];
+    std::vector<Index> inside;
+    for (const Index r : rows)
+      if (contains(regions[k], p.position.data[r])) inside.push_back(r);
+    m.count = inside.size();
+    if (inside.empty()) continue;
+    const double n = double(inside.size());
+    double spheres = 0, contacts = 0, speed = 0, agitation = 0;
+    Vec3 velocity;
+    for (const Index r : inside) {
+      const double radius = p.radius.data[r];
+      m.mass += p.mass.data[r];
+      spheres += 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+      velocity += p.velocity.data[r];
+      speed += norm(p.velocity.data[r]);
+      contacts += coordination[r];
+    }
+    m.mean_velocity = (1 / n) * velocity;
+    for (const Index r : inside) {
+      const Vec3 own = p.velocity.data[r] - m.mean_velocity;
+      agitation += dot(own, own);
+    }
+    m.mean_speed = speed / n;
+    m.granular_temperature = agitation / (3 * n);
+    m.coordination_number = contacts / n;
+    m.solid_fraction = spheres / volume(regions[k]);
+  }
+  return out;
+}
+
 Frame make_frame(const Simulation& sim, const FrameOptions& options) {
   const World& w = sim.world();
   const Particles& p = std::get<Particles>(w);
@@ -107,16 +154,19 @@ Frame make_frame(const Simulation& sim, const FrameOptions& options) {
     f.force.push_back(p.force.data[r]);
     if (!p.orientation.data.empty()) f.orientation.push_back(p.orientation.data[r]);
   }
-  f.coordination.assign(rows.size(), 0);
-  for_each_touching_pair(sim, rows, [&](Index k, double, const Vec3&) {
-    const Index i = p.id.data[c.i.data[k]], j = c.partner.data[k];
-    ++f.coordination[i];
-    ++f.coordination[j];
-    if (options.contacts) f.contacts.push_back({i, j, c.force.data[k]});
+  if (sim.effects().removal || sim.effects().inflow)
+    for (const Index r : rows) {
+      f.id.push_back(p.id.data[r]);
+      f.radius.push_back(p.radius.data[r]);
+      f.mass.push_back(p.mass.data[r]);
+      f.material.push_back(p.material.data[r]);
+    }
+  const std::vector<std::uint32_t> coordination = coordination_of(sim, rows);
+  for (const Index r : rows) f.coordination.push_back(coordination[r]);
+  if (options.contacts) for_each_touching_pair(sim, rows, [&](Index k, double, const Vec3&) {
+    f.contacts.push_back({p.id.data[c.i.data[k]], c.partner.data[k], c.force.data[k]});
   });
-  for_each_touching_body(sim, rows, [&](Index k, Index r) {
-    ++f.coordination[p.id.data[r]];
-    if (!options.contacts) return;
+  if (options.contacts) for_each_touching_body(sim, rows, [&](Index k, Index r) {
     const Vec3 point = p.position.data[r] - (p.radius.data[r] - 0.5 * bc.overlap.data[k]) * bc.normal.data[k];
     f.body_contacts.push_back({p.id.data[r], std::get<Geometries>(w).body.data[bc.geometry.data[k]], point, bc.force.data[k]});
   });

@@ -24,6 +24,18 @@ struct Measures {
 
 Measures measure(const Simulation&);
 
+// Of the particles whose centre is in a region; means are over particles, and 0 where there is none.
+struct RegionMeasures {
+  std::size_t count = 0;
+  double mass = 0;                                    // [kg]
+  double solid_fraction = 0;                          // volume of these particles / that of the region; 0 for a half-space
+  Vec3 mean_velocity;                                 // [m/s]
+  double mean_speed = 0;                              // [m/s]
+  double granular_temperature = 0;                    // [m^2/s^2] <|v - <v>|^2> / 3
+  double coordination_number = 0;                     // contacts per particle, bodies included
+};
+std::vector<RegionMeasures> measure_regions(const Simulation&, const std::vector<Region>&);
+
 struct FrameOptions { bool contacts = false; };
 Frame make_frame(const Simulation&, const FrameOptions&);
 

@@ -28,6 +28,10 @@ void add_sdem(Task& task, const World& world, const Model& model, bool initial) 
   const bool torques = e.friction || e.rolling;
   add_integrate(task, model, e, h);
   if (e.moving_bodies) task.add(MoveBodies{model.pieces, model.bodies_at_start, model.time_step, h});
+  if (!initial) {
+    add_crossings(task, model);
+    add_flow(task, model);
+  }
   const ContactColumns columns = e.chosen ? ContactColumns{torques, false, e.rolling, torques, false, e.memory}
                                           : ContactColumns{torques, e.friction, e.rolling, torques && !e.alike};
   add_collision(task, world, model, e, columns, h);

@@ -1,6 +1,8 @@
 #include "tasks/simulation.h"
+#include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <numeric>
 #include <sched.h>
 #include "engine/io/state_hash.h"
 #include "tasks/steps.h"
@@ -35,7 +37,16 @@ Simulation::Simulation(World world, Model model, int threads)
     p.id.data.resize(n);
     for (Index k = 0; k < n; ++k) p.id.data[k] = k;
   }
+  Index& next_id = std::get<Population>(world_).next_id.data[0];
+  for (const Index id : p.id.data) next_id = std::max(next_id, id + 1);
   if (effects_.orientation) p.orientation.data.resize(n);
+  if (effects_.crossings) p.before.data = p.position.data;
+  const auto start_at_zero = [](auto& table, std::size_t rows) {
+    std::apply([&](auto... c) { ((table.*c).data.resize(rows), ...); }, std::decay_t<decltype(table)>::columns());
+  };
+  start_at_zero(std::get<Removed>(world_), model_.removers.size());
+  start_at_zero(std::get<Created>(world_), model_.inflows.size());
+  start_at_zero(std::get<Crossed>(world_), model_.areas.size());
   std::get<Incidence>(world_).first.data.assign(n + 1, 0);
   std::get<BodyIncidence>(world_).first.data.assign(n + 1, 0);
 
@@ -81,8 +92,14 @@ void Simulation::step_in_order(std::span<const std::size_t> order) {
 }
 
 std::vector<Index> rows_by_id(const Particles& p) {
+  const auto& id = p.id.data;
   std::vector<Index> row(p.rows());
-  for (Index r = 0; r < p.rows(); ++r) row[p.id.data[r]] = r;
+  if (std::all_of(id.begin(), id.end(), [&](Index i) { return i < row.size(); })) {   // no gaps: nothing was removed
+    for (Index r = 0; r < row.size(); ++r) row[id[r]] = r;
+    return row;
+  }
+  std::iota(row.begin(), row.end(), Index{0});
+  std::sort(row.begin(), row.end(), [&](Index a, Index b) { return id[a] < id[b]; });
   return row;
 }
 
@@ -94,7 +111,13 @@ std::uint64_t Simulation::state_hash() const {
   const Incidence& in = std::get<Incidence>(world_);
   const BodyIncidence& bin = std::get<BodyIncidence>(world_);
   hash.add(steps_done());
+  const bool changing = effects_.removal || effects_.inflow;   // else ids, radii and masses are what they were
   for (const Index r : rows_by_id(p)) {
+    if (changing) {
+      hash.add(p.id.data[r]);
+      hash.add(p.radius.data[r]);
+      hash.add(p.mass.data[r]);
+    }
     for (const auto* column : {&p.position, &p.velocity, &p.angular_velocity, &p.force, &p.torque,
                                &p.previous_force, &p.previous_torque}) hash.add(column->data[r]);
     if (!p.orientation.data.empty()) hash.add(p.orientation.data[r]);
@@ -130,6 +153,13 @@ std::uint64_t Simulation::state_hash() const {
     hash.add(b.angular_velocity.data[k]);
     for (const auto* column : {&b.acceleration, &b.angular_acceleration, &b.previous_acceleration, &b.previous_angular_acceleration})
       hash.add(column->data[k]);
+  }
+  if (changing) hash.add(std::get<Population>(world_).next_id.data[0]);
+  const Created& created = std::get<Created>(world_);
+  for (std::size_t k = 0; k < created.rows(); ++k) {
+    hash.add(created.count.data[k]);
+    hash.add(created.mass.data[k]);
+    hash.add(created.trials.data[k]);
   }
   return hash.value();
 }

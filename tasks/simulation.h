@@ -52,7 +52,7 @@ class Simulation {
   std::unique_ptr<Task> task_;
 };
 
-// Rows of the particles by id.
+// Rows of the particles in the order of their ids, which have gaps where particles were removed.
 std::vector<Index> rows_by_id(const Particles&);
 
 // Threads that `auto` means: those of the affinity mask, or fewer if the control group's processor quota says so.

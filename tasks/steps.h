@@ -17,6 +17,10 @@ void add_ndem(Task&, const World&, const Model&, bool initial = false);
 void add_collision(Task&, const World&, const Model&, const Effects&, const ContactColumns& columns, double time_step);
 void add_integrate(Task&, const Model&, const Effects&, double time_step);
 
+// Particles that are removed and created (at the head of what follows positions), and those that cross an area (after they moved).
+void add_flow(Task&, const Model&);
+void add_crossings(Task&, const Model&);
+
 // Points where bodies touch each other, and those less than `margin` [m] apart; with `springs` or the effect `memory` they remember.
 void add_rigid_collision(Task&, const World&, const Effects&, double margin, bool springs);
 

@@ -85,14 +85,22 @@ double lightest_share_of_a_body(const World& w, double radius) {
 
 struct Limits { double overlap, contact_time, springs, dashpots; };   // [m], [s]
 
-Limits limits_of_particles(const World& w, const WorstPair& pair, double speed) {
+// The lightest of the particles, and of those that an inflow may bring.
+struct Lightest { double mass = std::numeric_limits<double>::infinity(), radius = 0; };
+Lightest lightest_particle(const World& w, const Model& m) {
   const Particles& p = std::get<Particles>(w);
+  Lightest l;
+  for (std::size_t k = 0; k < p.rows(); ++k)
+    if (p.mass.data[k] < l.mass) l = {p.mass.data[k], p.radius.data[k]};
+  for (const Inflow& f : m.inflows)
+    if (const double mass = mass_of(f, f.radius_min); mass < l.mass) l = {mass, f.radius_min};
+  return l;
+}
+
+Limits limits_of_particles(const World& w, const Model& m, const WorstPair& pair, double speed) {
   // The lightest particle against another like it has the shortest contact: for Hertz t_c ~ (m^2 / (R E*^2 v))^(1/5).
-  std::size_t smallest = 0;
-  for (std::size_t k = 1; k < p.rows(); ++k)
-    if (p.mass.data[k] < p.mass.data[smallest]) smallest = k;
-  const double radius = p.radius.data[smallest];
-  const double mass = std::min(p.mass.data[smallest], lightest_share_of_a_body(w, radius)), mass_eff = mass / 2;
+  const auto [lightest, radius] = lightest_particle(w, m);
+  const double mass = std::min(lightest, lightest_share_of_a_body(w, radius)), mass_eff = mass / 2;
   const double overlap = pair.overlap(radius / 2, mass_eff, speed), stiffness = pair.stiffness(radius / 2, overlap);
   return {overlap, pair.contact_time(overlap, mass_eff, speed), 2 / std::sqrt(8 * stiffness / mass),
           2 / (pair.dashpots(dashpots_of_a_packing, stiffness, mass_eff, overlap) / mass)};   // infinite for e = 1
@@ -156,6 +164,15 @@ double expected_speed(const World& w, const Model& m) {
     low = std::min(low, height - p.radius.data[k]);
     high = std::max(high, height);
   }
+  for (const Inflow& f : m.inflows) {
+    fastest = std::max(fastest, norm(f.velocity));
+    const Bounds box = bounds(f.region);
+    for (int corner = 0; corner < 8; ++corner) {
+      const double height = dot(up, Vec3{corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y, corner & 4 ? box.max.z : box.min.z});
+      low = std::min(low, height);
+      high = std::max(high, height);
+    }
+  }
   const Geometries& geometry = std::get<Geometries>(w);
   const Bodies& b = std::get<Bodies>(w);
   for (std::size_t k = 0; k < b.rows(); ++k)
@@ -182,10 +199,11 @@ TimeStepAdvice advise_time_step(const World& w, const Model& m, double speed) {
   a.speed = speed;
   const WorstPair pair(m);
   std::vector<Limits> limits;
-  if (std::get<Particles>(w).rows() > 0) limits.push_back(limits_of_particles(w, pair, speed));
+  const bool particles = std::get<Particles>(w).rows() > 0 || !m.inflows.empty();
+  if (particles) limits.push_back(limits_of_particles(w, m, pair, speed));
   if (decide_effects(w, m).rigid_contacts) limits.push_back(limits_of_bodies(w, pair, speed));
   if (limits.empty()) throw std::logic_error("nothing touches anything: there is no time step to advise");
-  const bool bodies = limits.size() == 2 ? step_of(limits[1]) < step_of(limits[0]) : std::get<Particles>(w).rows() == 0;
+  const bool bodies = limits.size() == 2 ? step_of(limits[1]) < step_of(limits[0]) : !particles;
   const Limits& l = bodies ? limits.back() : limits.front();
 
   a.overlap = l.overlap;
@@ -206,7 +224,7 @@ TimeStepAdvice advise_time_step(const World& w, const Model& m, double speed) {
 }
 
 TimeStepAdvice advise_nonsmooth_time_step(const World& w, const Model& m, double speed, double tolerance) {
-  const double radius = smallest_radius(w), reach = 2 * tolerance * radius, g = norm(m.gravity);
+  const double radius = smallest_radius(w, m), reach = 2 * tolerance * radius, g = norm(m.gravity);
   TimeStepAdvice a;
   a.speed = speed;
   a.overlap = reach;

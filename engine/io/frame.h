@@ -14,11 +14,13 @@ struct BodyFrame { Pose pose; Vec3 velocity, angular_velocity, force, torque; };
 struct ContactFrame { std::uint32_t i, j; Vec3 force; };                 // ids i < j; force on i
 struct BodyContactFrame { std::uint32_t particle, body; Vec3 point, force; };  // force on the particle
 
-// State at one time. Every particle column has one entry per id 0 .. count-1.
+// State at one time. Every particle column has one entry per particle, by ascending id.
 struct Frame {
   std::int64_t step = 0;
   double time = 0;
   std::vector<Vec3> position, velocity, angular_velocity, force;
+  std::vector<std::uint32_t> id, material;                               // these four: only where particles come and go
+  std::vector<double> radius, mass;
   std::vector<Quaternion> orientation;                                   // empty unless asked for
   std::vector<std::uint32_t> coordination;                               // touching contacts, bodies included
   std::vector<BodyFrame> bodies;
@@ -30,7 +32,8 @@ struct Frame {
 struct FrameHeader {
   std::string scene, method, software, units_note;
   double time_step = 0;
-  std::vector<double> radius, mass;                                      // by id
+  bool changing = false;                                                 // particles come and go: each frame has its own
+  std::vector<double> radius, mass;                                      // by id 0 .. count-1; at the start, where particles come and go
   std::vector<std::uint32_t> material;
   std::vector<std::string> material_names;
   struct Body {

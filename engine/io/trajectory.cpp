@@ -59,7 +59,11 @@ struct TrajectoryWriter::Impl {
   }
 
   void check(const Frame& frame) const {
-    const std::size_t n = header.radius.size();
+    const std::size_t n = header.changing ? frame.id.size() : header.radius.size(), own = header.changing ? n : 0;
+    check_length("radius", frame.radius.size(), own);
+    check_length("mass", frame.mass.size(), own);
+    check_length("material", frame.material.size(), own);
+    check_length("id", frame.id.size(), own);
     check_length("position", frame.position.size(), n);
     check_length("velocity", frame.velocity.size(), n);
     check_length("angular_velocity", frame.angular_velocity.size(), n);
@@ -77,7 +81,8 @@ struct TrajectoryWriter::Impl {
   void require_space(const Frame& frame) const {
     constexpr std::size_t tables = 1 << 20;      // new chunks of small tables, the library's own trees
     const std::size_t real = header.single_precision ? sizeof(float) : sizeof(double);
-    const std::size_t need = frame.position.size() * (12 * real + sizeof(std::uint32_t)) + frame.orientation.size() * 4 * real +
+    const std::size_t need = frame.position.size() * (12 * real + sizeof(std::uint32_t)) +
+                             frame.id.size() * (2 * real + 2 * sizeof(std::uint32_t) + 2 * sizeof(std::int64_t) + 1) + frame.orientation.size() * 4 * real +
                              frame.contacts.size() * (8 + 3 * real) + frame.body_contacts.size() * (8 + 6 * real) +
                              frame.bodies.size() * 19 * sizeof(double) + bodies.moving_vertices() * 3 * real + tables;
     reserve_space(file.path(), need, "the frame at " + std::to_string(frame.time) + " s");

@@ -3,8 +3,9 @@
 // trajectory.h5 is a temporal VTKHDF 2.0 file (docs.vtk.org, "VTKHDF file format"; ParaView 5.12 and later open it) and, for
 // older programs, the XDMF files beside it show the same data: trajectory.xdmf the particles, bodies.xdmf the walls.
 //
-//   /VTKHDF              Points and PointData, rows frame by frame: frame k has rows [k N, (k+1) N). What never changes
-//                        (radius, mass, material, id, cells) is stored once; Steps/PointDataOffsets says so.
+//   /VTKHDF              Points and PointData, rows frame by frame: frame k has NumberOfPoints[k] rows from Steps/PointOffsets[k]
+//                        on. What never changes (radius, mass, material, id, cells) is stored once; Steps/PointDataOffsets says
+//                        so. Where particles come and go each frame has its own; only cells are shared.
 //   /particles           the same arrays under our names: position, velocity, angular_velocity, force, radius, ...
 //   /frames              time, step; 000000, 000001, ...: each frame's arrays, as views of those above
 //   /bodies              names, motion, geometry; position, orientation (w, x, y, z), velocity, angular_velocity, force and

@@ -10,9 +10,9 @@
 #include <numbers>
 #include <vector>
 #include <benchmark/benchmark.h>
+#include "engine/random.h"
 #include "profiling/bench/bench_scenes.h"
 #include "profiling/bench/spawn.h"
-#include "scenes/random.h"
 #include "tasks/sampling.h"
 #include "tasks/simulation.h"
 

@@ -25,9 +25,9 @@ void write_start(const BenchScene& s, const fs::path& to) {
   write_state(to, start);
 }
 
-struct Removed {                                             // at the end, whatever comes between
+struct RemovedFile {                                         // at the end, whatever comes between
   fs::path path;
-  ~Removed() {                                               // and what a process left unfinished beside it
+  ~RemovedFile() {                                               // and what a process left unfinished beside it
     std::error_code ignored;
     for (const auto& entry : fs::directory_iterator(path.parent_path(), ignored))
       if (entry.path().filename().string().starts_with(path.filename().string())) fs::remove(entry.path(), ignored);
@@ -82,7 +82,7 @@ void ensure_state(const BenchScene& s, const fs::path& states, int threads, cons
   std::fprintf(stderr, "settling %s, once: %s particles, %lld steps on %d thread%s\n", s.name.c_str(),
                grouped_digits(std::int64_t(s.particles)).c_str(), static_cast<long long>(s.settling_steps), threads,
                threads == 1 ? "" : "s");
-  const Removed start{states / fmt::format("{}-start-{}.h5", s.name, getpid())};
+  const RemovedFile start{states / fmt::format("{}-start-{}.h5", s.name, getpid())};
   in_child([&] {
     if (s.spawn) write_start(s, start.path);
     run(s, s.spawn ? read_bench_scene(s, start.path, s.settling) : read_bench_scene(s, s.settling), to, threads);

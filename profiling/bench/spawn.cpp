@@ -1,7 +1,7 @@
 #include "profiling/bench/spawn.h"
 #include <cmath>
 #include <numbers>
-#include "scenes/random.h"
+#include "engine/random.h"
 
 namespace skred {
 

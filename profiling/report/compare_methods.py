@@ -47,7 +47,7 @@ def series(run):
 
 
 def name(run):
-    return f"{run.scene}, {len(run.radius)} particles"
+    return f"{run.scene}, {run.count[0]} particles"
 
 
 def late_means(run, found, start):

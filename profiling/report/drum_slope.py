@@ -85,7 +85,7 @@ def window(x, z, axis, name):
 def slopes(run, frames):
     """Per window: rows of time [s], slope, error of the fit [degrees], rms distance to the line, thickness of the bed [m]."""
     sign, axis = uphill(run)
-    radius = float(np.median(run.radius))
+    radius = float(np.median(run.particles("radius", 0)))
     found = {name: [] for name in WINDOWS}
     for k in frames:
         position = run.particles("position", k)
@@ -122,8 +122,8 @@ def block_error(values):
 
 def summary(run, rows, start):
     """Prints the numbers of a run; returns mean and error of the middle window, or None."""
-    diameter = 2 * float(np.median(run.radius))
-    print(f"{run.folder}: {run.scene}, {run.method}, {len(run.radius)} particles, "
+    diameter = 2 * float(np.median(run.particles("radius", 0)))
+    print(f"{run.folder}: {run.scene}, {run.method}, {run.count[0]} particles, "
           f"{run.frames} frames to t = {run.times[-1]:.2f} s")
     results = {}
     for name, text in WINDOWS.items():
@@ -150,7 +150,7 @@ def plot(results, args):
     for (run, rows, mean), color in zip(results, COLORS * len(results)):
         t, slope, error = rows["middle"][:, :3].T
         axes.fill_between(t, slope - error, slope + error, color=color, alpha=0.25, linewidth=0)
-        axes.plot(t, slope, color=color, linewidth=1.2, label=f"{len(run.radius)} particles, {run.method}")
+        axes.plot(t, slope, color=color, linewidth=1.2, label=f"{run.count[0]} particles, {run.method}")
         if mean:
             axes.plot([args.start, t[-1]], [mean[0]] * 2, color=color, linewidth=2.5)
             axes.fill_between([args.start, t[-1]], mean[0] - mean[1], mean[0] + mean[1], color=color, alpha=0.4, linewidth=0,

@@ -33,7 +33,7 @@ def quantity(run, k, color):
         return np.linalg.norm(run.particles("velocity", k), axis=1), "speed [m/s]"
     if color == "load":
         return run.contact_forces(k), "sum of contact forces on a particle [N]"
-    return run.material.astype(float), "material"
+    return run.particles("material", k).astype(float), "material"
 
 
 def enclosure(camera, centres, reach, args, triangles):
@@ -52,25 +52,29 @@ def enclosure(camera, centres, reach, args, triangles):
 def draw(run, frames, args):
     camera = Camera() if args.view == "front" else Camera(np.radians(-28), np.radians(24))
     shown = [quantity(run, k, args.color) for k in frames]
-    top = args.max if args.max else max(np.percentile(values, 99.5) for values, _ in shown) or 1.0
+    top = args.max if args.max else max((np.percentile(values, 99.5) for values, _ in shown if len(values)), default=0) or 1.0
     colors = plt.get_cmap("viridis" if args.color == "speed" else "magma_r")
     positions = [run.particles("position", k) for k in frames]
     surfaces = [run.surfaces(k) for k in frames]
-    reach = run.radius.max()
+    radii = [run.particles("radius", k) for k in frames]
+    reach = max(r.max(initial=0) for r in radii)
     # By default just behind the foremost particles' surface: an end wall that they press into is in front of it as a whole.
-    cut = np.percentile(np.concatenate(positions)[:, 1], 1) - 0.5 * reach if args.cut is None else args.cut
+    foremost = np.concatenate(positions)[:, 1]
+    cut = (np.percentile(foremost, 1) if len(foremost) else 0) - 0.5 * reach if args.cut is None else args.cut
     kept = [p[:, 1] >= (-np.inf if args.cut is None else cut) for p in positions]
+    if not any(len(p) for p in positions):
+        raise Failure("there is no particle in the frames asked for")
     if not any(k.any() for k in kept):
-        raise Failure(f"--cut {cut} leaves no particle; they lie between y = {positions[0][:, 1].min():.3g} and "
-                      f"{positions[0][:, 1].max():.3g} m")
+        raise Failure(f"--cut {cut} leaves no particle; they lie between y = {min(p[:, 1].min() for p in positions if len(p)):.3g} "
+                      f"and {max(p[:, 1].max() for p in positions if len(p)):.3g} m")
     everything = np.concatenate([p[k] for p, k in zip(positions, kept)])
     low, high = enclosure(camera, everything, reach, args, np.concatenate([triangles for triangles, _ in surfaces]))
     pictures = []
-    for position, keep, (values, _), (triangles, closed) in zip(positions, kept, shown, surfaces):
+    for position, radius, keep, (values, _), (triangles, closed) in zip(positions, radii, kept, shown, surfaces):
         canvas = Canvas(camera, low, high, args.width * SAMPLES)
         canvas.bodies(triangles, closed, cut)
-        rgb = MATERIALS[run.material % len(MATERIALS)] if args.color == "material" else colors(np.clip(values / top, 0, 1))[:, :3]
-        canvas.spheres(position[keep], run.radius[keep], rgb[keep])
+        rgb = MATERIALS[values.astype(int) % len(MATERIALS)] if args.color == "material" else colors(np.clip(values / top, 0, 1))[:, :3]
+        canvas.spheres(position[keep], radius[keep], rgb[keep])
         canvas.shade(3 * reach)
         pictures.append(canvas.image(SAMPLES))
     return pictures, (low[0], high[0], low[1], high[1]), Normalize(0, top), colors, shown[0][1]
@@ -80,7 +84,9 @@ def compose(run, frames, args):
     pictures, extent, norm, colors, label = draw(run, frames, args)
     height, width = pictures[0].shape[:2]
     dpi = 100                                                          # a pixel of the picture is one of the file
-    title, alone = f"{run.scene}, {run.method}, {len(run.radius)} particles", len(pictures) == 1
+    counts, alone = run.count[frames], len(pictures) == 1
+    numbers = str(counts[0]) if (counts == counts[0]).all() else f"{counts.min()} to {counts.max()}"
+    title = f"{run.scene}, {run.method}, {numbers} particles"
     left, bottom = (0.75, 0.55) if args.view == "front" else (0.1, 0.1)
     top, gap, right = 0.4 if alone else 0.7, 0.15, 1.1                           # [inch]
     size = (left + len(pictures) * (width / dpi + gap) + right, bottom + height / dpi + top)
@@ -100,7 +106,7 @@ def compose(run, frames, args):
     bar = figure.add_axes(((left + len(pictures) * (width / dpi + gap)) / size[0], bottom / size[1], 0.16 / size[0],
                            height / dpi / size[1]))
     if args.color == "material":
-        used = np.unique(run.material)
+        used = np.unique(np.concatenate([run.particles("material", k) for k in frames]))
         legend = ListedColormap(MATERIALS[used % len(MATERIALS)])
         ticks = figure.colorbar(ScalarMappable(Normalize(0, len(used)), legend), cax=bar, ticks=np.arange(len(used)) + 0.5)
         ticks.ax.set_yticklabels([run.material_names[m] for m in used])

@@ -28,8 +28,9 @@ class Run:
         if self.frames == 0:
             raise Failure(f"{path}: holds no frame yet")
         self.times = self.file["VTKHDF/Steps/Values"][: self.frames]             # [s]
-        self.radius = self.file["particles/radius"][:].astype(float)             # [m]
-        self.material = self.file["particles/material"][:]
+        # Row with which the particles of a frame begin, and how many there are; they may come and go.
+        self.first = self.file["VTKHDF/Steps/PointOffsets"][: self.frames].astype(int)
+        self.count = self.file["VTKHDF/NumberOfPoints"][: self.frames].astype(int)
         self.material_names = [name.decode() for name in self.file["skred/material_names"][:]]
         self.scene = self.text("scene")
         self.method = {"sdem": "smooth DEM", "ndem": "nonsmooth DEM"}.get(self.text("method"), self.text("method"))
@@ -49,23 +50,25 @@ class Run:
         return k % self.frames
 
     def particles(self, name, k):
-        """Column `name` (position, velocity, coordination, ...) in frame k: one row per particle."""
-        n = len(self.radius)
-        rows = self.file["particles"][name][k * n : (k + 1) * n]
+        """Column `name` (position, velocity, radius, id, ...) in frame k: one row per particle."""
+        offsets = self.file["VTKHDF/Steps/PointDataOffsets"]
+        first = int(offsets[name][k]) if name in offsets else self.first[k]
+        rows = self.file["particles"][name][first : first + self.count[k]]
         return rows if rows.dtype.kind in "iu" else rows.astype(float)
 
     def contact_forces(self, k):
         """Sum of the magnitudes of the contact forces on each particle in frame k [N]."""
         if "contacts" not in self.file:
             raise Failure(f"{self.folder}: the frames have no contacts; run the scene with --set output.contacts=true")
-        total = np.zeros(len(self.radius))
+        ids = self.particles("id", k).astype(int)
+        total = np.zeros(ids.max(initial=-1) + 1)
         for table, columns in (("particle_particle", ("i", "j")), ("particle_body", ("particle",))):
             group = self.file["contacts"][table]
             first, count = int(group["first"][k]), int(group["count"][k])
             force = np.linalg.norm(group["force"][first : first + count], axis=1)
             for column in columns:
                 total += np.bincount(group[column][first : first + count], weights=force, minlength=len(total))
-        return total
+        return total[ids]
 
     def surfaces(self, k):
         """All bodies in frame k: triangles, shape (n, 3 corners, 3) [m], and for each if it is part of a closed surface.

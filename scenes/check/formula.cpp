@@ -34,7 +34,11 @@ Index row_of(void* data, double id) {
   const Scope& s = scope_of(data);
   const Particles& p = std::get<Particles>(state(data).world());
   if (s.rows.size() != p.rows()) fail("the particles' rows are not known here");
-  return s.rows[index(id, p.rows(), "particle")];
+  const std::size_t given = std::get<Population>(s.sim->world()).next_id.data[0];   // ids so far
+  const auto k = static_cast<Index>(index(id, given, "particle"));
+  const auto at = std::lower_bound(s.rows.begin(), s.rows.end(), k, [&](Index row, Index wanted) { return p.id.data[row] < wanted; });
+  if (at == s.rows.end() || p.id.data[*at] != k) fail(fmt::format("particle {} was removed", k));
+  return *at;
 }
 
 template <auto column, auto component> double of_particle(void* data, double id) {

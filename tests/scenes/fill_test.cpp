@@ -1,7 +1,7 @@
 // tests/scenes/fill_test.cpp - lattices of particles.
 #include "scenes/fill.h"
 #include <gtest/gtest.h>
-#include "scenes/random.h"
+#include "engine/random.h"
 #include "tests/scenes/scene_text.h"
 
 using namespace skred;

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include "scenes/random.h"
+#include "engine/random.h"
 #include "tests/scenes/scene_text.h"
 
 using namespace skred;

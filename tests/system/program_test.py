@@ -56,6 +56,61 @@ def case_hash_needs_neither_threads_nor_output(program):
     assert run("other", "--seed", "2") != hashes["1"], "the hash does not see another start"
 
 
+FLOW = """
+end_time: 0.3 s
+time_step: 0.1 ms
+materials: [{name: grain, density: 2500, youngs_modulus: 5 MPa, restitution: 0.5, friction: 0.5}]
+inflow:
+  - name: feed
+    box: {min: [0, 0, 0.05], max: [0.1, 0.1, 0.1]}
+    radius: {min: 4 mm, max: 6 mm}
+    rate: 400
+    number: 60
+    velocity: [0, 0, -1]
+bodies: [{name: step, geometries: [{box: {size: [0.05, 0.2, 0.02]}, position: [0.02, 0.05, 0]}]}]
+remove: [{name: bin, half_space: {point: [0, 0, -0.05], normal: [0, 0, -1]}, interval: 2 ms}]
+probes:
+  - {name: out, disc: {point: [0, 0, -0.02], normal: [0, 0, -1], radius: .inf}}
+  - {name: air, box: {min: [-1, -1, -0.02], max: [1, 1, 1]}}
+output: {frame_interval: 20 ms, statistics_interval: 10 ms, contacts: true}
+"""
+
+
+def case_particles_come_and_go(program):
+    """A scene that starts empty. What came, went and crossed adds up, in every file; threads and a resolved scene leave no trace."""
+    write("flow.yaml", FLOW)
+    for method in ("sdem", "ndem"):
+        hashes = set()
+        for threads in (1, 2, 4):
+            program.run("flow.yaml", "--method", method, "--threads", threads, "--overwrite", "--quiet")
+            hashes.add(state_hash())
+        program.run("out/scene.resolved.yaml", "--quiet", "--overwrite", output="again")
+        hashes.add(state_hash("again"))
+        assert len(hashes) == 1, (method, hashes)
+        s = summary()
+        created, removed, crossed = s["created"]["feed"], s["removed"]["bin"], s["crossed"]["out"]
+        assert created["count"] == 60 and created["waiting"] == 0 and 10 < removed["count"] <= crossed["count"] < 60, s
+        assert s["particles"] == 60 - removed["count"]
+        with open("out/statistics.csv", newline="") as text:
+            rows = [{k: float(v) for k, v in row.items()} for row in csv.DictReader(text)]
+        for row in rows:
+            assert row["feed.created [1]"] == row["particles [1]"] + row["bin.removed [1]"]
+            assert row["feed.created [1]"] == row["air.count [1]"] + row["out.crossed [1]"], row
+            assert math.isclose(row["feed.created_mass [kg]"], row["air.mass [kg]"] + row["out.crossed_mass [kg]"], abs_tol=1e-12)
+        assert rows[0]["particles [1]"] == 0 and rows[-1]["bin.removed [1]"] == removed["count"]
+        check_trajectory("out", 10)
+        with h5py().File("out/trajectory.h5", "r") as file:
+            counts, ids = file["VTKHDF/NumberOfPoints"][...], file["particles/id"][...]
+            first = file["VTKHDF/Steps/PointOffsets"][...]
+            assert counts[0] == 0 and counts[-1] == s["particles"]
+            for a, n in zip(first, counts):
+                assert (ids[a + 1:a + n] > ids[a:a + n - 1]).all(), "in order of id"
+            assert ids.max() == 59
+    contains(program("graph", "flow.yaml").stdout, ["emit_particles", "remove_particles", "count_crossings", "removal of particles", "1 region"])
+    plain = program("graph", scene("drum")).stdout
+    assert "emit_particles" not in plain and "remove_particles" not in plain and "the scene has no inflow" in plain
+
+
 def case_nonsmooth_run(program):
     """The same scene file by the other method, at its own step: what the solver did is told, and threads leave no trace."""
     hashes = set()

@@ -113,6 +113,53 @@ TEST(Trajectory, NoParticles) {
   EXPECT_TRUE(fs::exists(folder / "bodies.xdmf"));
 }
 
+// Four particles, none, then two of which one is new.
+TEST(Trajectory, ParticlesThatComeAndGo) {
+  const TemporaryFolder folder;
+  FrameHeader header = only_particles(4);
+  header.changing = true;
+  header.single_precision = false;
+  TrajectoryWriter writer(folder.path.string(), header);
+  const std::vector<std::vector<std::uint32_t>> ids{{0, 1, 2, 3}, {}, {2, 7}, {1, 2, 3, 5, 8, 9}};
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    Frame f{.step = std::int64_t(k), .time = 0.1 * double(k)};
+    for (const std::uint32_t id : ids[k]) {
+      f.id.push_back(id);
+      f.radius.push_back(0.01 * id);
+      f.mass.push_back(1.0 + id);
+      f.material.push_back(id % 2);
+      f.position.push_back({double(id), double(k), 0});
+    }
+    f.velocity = f.angular_velocity = f.force = f.position;
+    f.coordination = f.id;
+    writer.append(f);
+    f.time += 0.01;
+    f.mass.push_back(1);
+    EXPECT_THAT(message_of<std::invalid_argument>([&] { writer.append(f); }), HasSubstr("mass has"));
+  }
+  writer.close();
+  const Hdf5Reader read(folder / "trajectory.h5");
+  EXPECT_THAT(read.read_integers("/VTKHDF/NumberOfPoints"), ElementsAre(4, 0, 2, 6));
+  EXPECT_THAT(read.read_integers("/VTKHDF/NumberOfCells"), ElementsAre(4, 0, 2, 6));
+  EXPECT_THAT(read.read_integers("/VTKHDF/Steps/PointOffsets"), ElementsAre(0, 4, 4, 6));
+  EXPECT_THAT(read.read_integers("/VTKHDF/Steps/PartOffsets"), ElementsAre(0, 1, 2, 3));
+  EXPECT_THAT(read.read_integers("/VTKHDF/Steps/PointDataOffsets/id"), ElementsAre(0, 4, 4, 6));
+  EXPECT_THAT(read.read_integers("/VTKHDF/Steps/PointDataOffsets/velocity"), ElementsAre(0, 4, 4, 6));
+  EXPECT_THAT(read.read_integers("/VTKHDF/Steps/ConnectivityIdOffsets"), Each(0));
+  EXPECT_THAT(read.read_integers("/VTKHDF/Connectivity"), ElementsAre(0, 1, 2, 3, 4, 5));     // of the largest frame
+  EXPECT_THAT(read.read_integers("/VTKHDF/Offsets"), ElementsAre(0, 1, 2, 3, 4, 5, 6));
+  EXPECT_THAT(read.read_integers("/particles/id"), ElementsAre(0, 1, 2, 3, 2, 7, 1, 2, 3, 5, 8, 9));
+  EXPECT_THAT(read.read_integers("/frames/000002/id"), ElementsAre(2, 7));
+  EXPECT_THAT(read.read_integers("/frames/000002/cells"), ElementsAre(0, 1));
+  EXPECT_THAT(read.read_doubles("/frames/000002/radius"), ElementsAre(0.02, 0.07));
+  EXPECT_THAT(read.read_doubles("/frames/000002/position"), ElementsAre(2, 2, 0, 7, 2, 0));
+  EXPECT_FALSE(read.has("/frames/000001/id"));
+  std::ifstream in(folder / "trajectory.xdmf");
+  const std::string xdmf((std::istreambuf_iterator<char>(in)), {});
+  EXPECT_THAT(xdmf, AllOf(HasSubstr("NumberOfElements=\"4\""), HasSubstr("NumberOfElements=\"2\""), HasSubstr("NumberOfElements=\"6\""),
+                          HasSubstr("/frames/000003/cells")));
+}
+
 TEST(Trajectory, NoBodies) {
   const TemporaryFolder folder;
   write(folder.path.string(), only_particles(3), 2);

@@ -1,4 +1,4 @@
-// scenes/random.h - uniform numbers that depend on nothing but what they are for, the same on every machine.
+// engine/random.h - uniform numbers that depend on nothing but what they are for, the same on every machine.
 //
 // Counter-based: a number is a hash of the seed and of indices, so that leaving a particle out moves no other one. The hash
 // is SplitMix64 (Steele, Lea, Flood 2014; constants of Stafford's mix 13).
