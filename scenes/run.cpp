@@ -124,6 +124,8 @@ nlohmann::json make_summary(const Run& r, const std::string& outcome, double wal
           {"software", "skred " SKRED_VERSION}, {"processor", processor_name()}, {"compiler", compiler_name()},
           {"load_average", load_average()}, {"kernels", profile_json(totals)}};
   add_solver(summary, r, totals);
+  if (r.scene.output.energy)
+    for (const auto& [name, joules] : energy_columns(std::get<EnergyLedger>(r.sim.world()))) summary["energy"][name] = joules;
   return summary;
 }
 

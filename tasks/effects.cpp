@@ -118,6 +118,7 @@ Effects decide_effects(const World& w, const Model& m) {
                     alike ? "kept by effects: all" : "particles differ",
                     "one radius and one material: coefficients are worked out once");
   e.periodic = decide("periodic directions", m.periodic.has_value(), "the scene has some", "the scene has none");
+  e.energy = decide("energy ledger", m.energy, "the output asks for it", "the output does not ask for it");
   return e;
 }
 

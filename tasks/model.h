@@ -23,6 +23,7 @@ struct Model {
   bool normal_law = true, tangential_law = true, rolling_law = true;   // false: `none` in the scene
   bool all_effects = false;                        // keep every effect, even where its parameter is zero
   bool orientation = false;                        // integrate the orientation of particles
+  bool energy = false;                             // keep the energy ledger
   std::optional<PeriodicSpace> periodic;
   std::optional<Bounds> bounds;
   bool stop_outside = true;
@@ -41,6 +42,7 @@ struct Effects {
   bool rotation, orientation, history;
   bool alike;                                      // one radius, one mass, one material
   bool periodic;
+  bool energy;                                     // the energy ledger
 
   struct Reason { std::string effect; bool in; std::string why; };
   std::vector<Reason> reasons;                     // for `skred graph`, in order of the list above
