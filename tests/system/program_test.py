@@ -280,6 +280,11 @@ def case_graph(program):
 def case_other_verbs(program):
     for name in ("hello", "drum", "silo"):
         contains(program("validate", scene(name)).stdout, [f"scene '{name}' is sound", "time step"])
+    for name in ("hello", "drum", "silo", "tower"):
+        for method in ("sdem", "ndem"):
+            done = program("validate", scene(name), "--method", method)
+            assert done.stderr == "" and "WARNING" not in done.stdout, done.stderr + done.stdout
+            contains(done.stdout, ["estimated before the run", "overlap under own weight", " ok"])
     schema = json.loads(program("schema").stdout)
     assert schema["type"] == "object" and "materials" in schema["properties"]
     contains(program("models").stdout, ["hertz", "spring", "Cundall & Strack 1979", "restitution"])
@@ -290,6 +295,19 @@ def case_other_verbs(program):
     contains(program("--version").stdout, ["skred 0."])
     contains(program("--help").stdout, ["run", "graph", "validate"])
     contains(program("run", "--help").stdout, ["--threads", "--vector", "auto|scalar|sse2|avx2|avx512", "--trace-steps", "--summary"])
+
+
+def case_guard_before_the_run(program):
+    """A scene that will go wrong is told so with numbers, in validate's table and in the log of a run; and it runs."""
+    soft = ["--set", "materials.rubber.youngs_modulus=50 kPa"]
+    done = program("validate", scene("hello"), *soft, says=["warning: overlap under own weight / radius: 0.1", "should be <= 0.08",
+                                                             "Hertz is for small overlaps"])
+    contains(done.stdout, ["WARNING", "sound"])
+    program.run(scene("hello"), *soft, "--end-time", "0.01 s", "--quiet", says=["warning: overlap under own weight"])
+    contains(read("out", "log.txt"), ["warning: overlap under own weight"])
+    floating = program("validate", scene("hello"), "--set", "gravity=[0, 0, 0]")
+    contains(floating.stdout, ["cannot be estimated: no gravity"])
+    assert floating.stderr == ""
 
 
 def case_wrong_usage(program):
