@@ -7,6 +7,7 @@
 #include <tuple>
 #include "engine/column.h"
 #include "engine/contact_rows.h"
+#include "engine/energy.h"
 #include "engine/geometry/shape.h"
 #include "engine/vec3.h"
 
@@ -309,6 +310,21 @@ struct Solver {
   }
 };
 
+// One row: the energy ledger, where the output asks for it (kernels/energy_ledger.h).
+struct EnergyLedger {
+  Column<StoredEnergy> stored{"stored_energy", "J", {StoredEnergy{}}};
+  Column<StoredEnergy> at_start{"stored_energy_at_start", "J", {StoredEnergy{}}};
+  Column<EnergyFlow>   flow{"energy_flow", "J", {EnergyFlow{}}};             // since the start
+  Column<EnergyFlow>   power{"power", "W", {EnergyFlow{}}};                  // smooth DEM: of the state
+  Column<EnergyFlow>   in_step{"energy_flow_in_step", "J", {EnergyFlow{}}};  // nonsmooth DEM: of the impulses
+  Column<SolverBody>   before{"solver_state_before", "m/s, 1/kg, rad/s, 1/(kg m^2)"};   // nonsmooth DEM: the solver's stage
+  std::size_t rows() const { return 1; }
+  static constexpr auto columns() {
+    return std::tuple{&EnergyLedger::stored, &EnergyLedger::at_start, &EnergyLedger::flow, &EnergyLedger::power, &EnergyLedger::in_step,
+                      &EnergyLedger::before};
+  }
+};
+
 // One row: the clock. Time is an integer times the time step, never a sum.
 struct Clock {
   Column<std::int64_t> step{"step", "1", {0}};
@@ -372,6 +388,7 @@ struct Population {
 };
 
 using World = std::tuple<Particles, Neighbours, Neighbourhood, Contacts, PreviousContacts, Incidence, BodyContacts, PreviousBodyContacts, BodyIncidence, Triangles,
-                         Bodies, Geometries, RigidPairs, RigidContacts, CellGrid, SolverBodies, ContactBlocks, HubContacts, Solver, Clock, Search, Removed, Created, Crossed, Population>;
+                         Bodies, Geometries, RigidPairs, RigidContacts, CellGrid, SolverBodies, ContactBlocks, HubContacts, Solver, EnergyLedger, Clock, Search,
+                         Removed, Created, Crossed, Population>;
 
 }  // namespace skred

@@ -115,6 +115,7 @@ Model build_model(const Scene& scene) {
   m.contact = scene.contact;
   m.all_effects = scene.all_effects;
   m.orientation = scene.output.orientation;
+  m.energy = scene.output.energy;
   if (scene.periodic[0].on || scene.periodic[1].on || scene.periodic[2].on) {
     const auto low = [&](int a) { return scene.periodic[a].on ? scene.periodic[a].min : 0.0; };
     const auto length = [&](int a) {

@@ -128,6 +128,7 @@ int run_program(int argc, char** argv) {
     const Prepared p = prepare(scene, run.force);
     for (const std::string& w : p.warnings) std::cerr << "warning: " << w << "\n";
     for (const std::string& n : p.notes) std::cout << n << "\n";
+    std::cout << findings_table(p.findings);
     std::cout << fmt::format("scene '{}' is sound: {} particles, {} bodies, {:g} s in {} steps\n", scene.name,
                              std::get<Particles>(p.world).rows(), scene.bodies.size(), scene.end_time, steps_in(scene.end_time, p.model.time_step));
   }

@@ -157,7 +157,25 @@ void check_bounds(const Scene& scene, const World& world) {
   }
 }
 
+void look_ahead(const Scene& scene, Prepared& p) {
+  p.findings = guard(p.world, p.model, scene.expected_speed.value_or(expected_speed(p.world, p.model)), scene.limits.overlap);
+  for (const Finding& f : p.findings)
+    if (f.verdict == Finding::Verdict::warning) p.warnings.push_back(fmt::format("{}: {}, should be {}: {}", f.quantity, f.value, f.limit, f.why));
+}
+
 }  // namespace
+
+std::string findings_table(const std::vector<Finding>& findings) {
+  if (findings.empty()) return "";
+  const auto line = [](std::string_view quantity, std::string_view value, std::string_view limit, std::string_view verdict) {
+    return fmt::format("  {:<44} {:>8}  {:<8} {}\n", quantity, value, limit, verdict);
+  };
+  std::string out = line("estimated before the run", "value", "limit", "");
+  for (const Finding& f : findings)
+    out += f.verdict == Finding::Verdict::unknown ? line(f.quantity, "-", "", "cannot be estimated: " + f.why)
+                                                  : line(f.quantity, f.value, f.limit, f.verdict == Finding::Verdict::fine ? "ok" : "WARNING");
+  return out;
+}
 
 std::int64_t steps_in(double interval, double time_step) {
   return std::max<std::int64_t>(1, std::llround(std::min(interval / time_step, most_steps)));
@@ -165,7 +183,7 @@ std::int64_t steps_in(double interval, double time_step) {
 
 Prepared prepare(const Scene& scene, bool force_time_step) {
   const ParticleSet set = make_particles(scene);
-  Prepared p{build_world(scene, set), build_model(scene), {}, {}, {}};
+  Prepared p{build_world(scene, set), build_model(scene), {}, {}, {}, {}};
   check_restitution(scene, p.model);
   note_laws(scene, p);
   check_shapes(scene, p);
@@ -175,6 +193,7 @@ Prepared prepare(const Scene& scene, bool force_time_step) {
   check_end_time(scene, p);
   if (p.model.contact.normal != NormalLaw::none) check_start(scene, p);
   check_bodies_at_start(scene, p);
+  look_ahead(scene, p);
   return p;
 }
 

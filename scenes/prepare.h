@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 #include "scenes/scene.h"
+#include "tasks/guard.h"
 #include "tasks/model.h"
 #include "tasks/time_step.h"
 
@@ -15,7 +16,11 @@ struct Prepared {
   TimeStepAdvice advice;
   std::vector<std::string> notes;     // what was chosen, and why: for the log
   std::vector<std::string> warnings;
+  std::vector<Finding> findings;      // what was estimated beforehand; those that warn are among the warnings
 };
+
+// The findings as a table, with a heading; empty if there are none.
+std::string findings_table(const std::vector<Finding>&);
 
 // Steps of `time_step` [s] in an interval [s], at least 1.
 std::int64_t steps_in(double interval, double time_step);

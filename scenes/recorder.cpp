@@ -99,6 +99,8 @@ StatisticsRow statistics_row(const Scene& scene, const Simulation& sim, const Me
   add("max_speed", "m/s", m.max_speed);
   add("max_overlap_ratio", "1", m.max_overlap_ratio);
   add("searches", "1", double(std::get<Search>(sim.world()).count.data[0]));
+  if (scene.output.energy)
+    for (const auto& [name, joules] : energy_columns(std::get<EnergyLedger>(sim.world()))) add(name, "J", joules);
   if (scene.method == Method::ndem) {
     const Solver& s = std::get<Solver>(sim.world());
     add("solver_sweeps", "1", double(s.sweeps.data[0]));

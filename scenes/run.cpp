@@ -135,6 +135,8 @@ nlohmann::json make_summary(const Run& r, const std::string& outcome, double wal
           {"load_average", load_average()}, {"kernels", profile_json(totals)}};
   add_solver(summary, r, totals);
   add_flow_summary(r.scene, r.sim, summary);
+  if (r.scene.output.energy)
+    for (const auto& [name, joules] : energy_columns(std::get<EnergyLedger>(r.sim.world()))) summary["energy"][name] = joules;
   return summary;
 }
 

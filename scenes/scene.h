@@ -171,6 +171,7 @@ struct Scene {
     double statistics_interval = 0;                  // [s]; 0: a hundredth of the end time
     bool contacts = false;                           // contact forces in the frames
     bool orientation = false;                        // particle orientations, integrated only if asked for
+    bool energy = false;                             // the energy ledger in the time series
     bool single_precision = true;                    // frames in 32 bits; checkpoints and statistics never
   } output;
 };

@@ -163,6 +163,7 @@ Effects decide_effects(const World& w, const Model& m) {
   e.inflow = decide("inflow of particles", !m.inflows.empty(), several(m.inflows.size(), "inflow"), "the scene has no inflow");
   e.crossings = decide("counts of crossings", !m.areas.empty(), several(m.areas.size(), "probe") + " with a disc or rectangle",
                        "no probe has a disc or rectangle; regions are measured when statistics are sampled");
+  e.energy = decide("energy ledger", m.energy, "the output asks for it", "the output does not ask for it");
   return e;
 }
 

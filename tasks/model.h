@@ -26,6 +26,7 @@ struct Model {
   ContactModel contact;                            // smooth DEM; nonsmooth DEM looks for `none` only
   bool all_effects = false;                        // keep every effect, even where its parameter is zero
   bool orientation = false;                        // integrate the orientation of particles
+  bool energy = false;                             // keep the energy ledger
   std::optional<PeriodicSpace> periodic;
   std::optional<Bounds> bounds;
   bool stop_outside = true;
@@ -49,6 +50,7 @@ struct Effects {
   bool alike;                                      // one radius, one mass, one material, worked out once: no law looks them up
   bool periodic;
   bool removal, inflow, crossings;
+  bool energy;                                     // the energy ledger
 
   struct Reason { std::string effect; bool in; std::string why; };
   std::vector<Reason> reasons;                     // for `skred graph`, in order of the list above

@@ -6,6 +6,7 @@
 #include "kernels/constraint_setup.h"
 #include "kernels/contact_solve.h"
 #include "kernels/contact_start.h"
+#include "kernels/energy_ledger.h"
 #include "kernels/impulse_application.h"
 #include "kernels/initial_forces.h"
 #include "kernels/move_bodies.h"
@@ -46,14 +47,17 @@ template <bool rolling, class Space> void add_solver(Task& task, const World& w,
   const RowOptions rows{h, m.solver.damping_steps, impact_speed_of(m), m.gravity, e.impacts};
   task.add(ConstraintSetup<Space>{space, rows, m.pairs.count, coefficients(m), largest_radius(w, m)});
   if (e.dynamic_bodies) task.add(ConstraintSetupBody{rows, m.pairs.count, coefficients(m)});
+  if (e.energy) task.add(EnergyLedgerBefore{});
   if (e.impacts)
     task.add(ImpactSolve{e.friction ? options<true, true, false, false>(m, m.solver.impact_iterations)
                                     : options<true, false, false, false>(m, m.solver.impact_iterations)});
+  if (e.energy && e.impacts) task.add(EnergyLedgerImpacts{});
   const bool limited = m.solver.separation_speed.has_value();
   task.add(ContactStart<rolling>{h, m.gravity, m.solver.warm_start, std::max(m.solver.trusted_residual, m.solver.tolerance)});
   task.add(ContactSolve{limited ? contact_sweeps<rolling, true>(m, e) : contact_sweeps<rolling, false>(m, e)});
   task.add(ImpulseApplication<rolling>{h});
   if (e.dynamic_bodies) task.add(ImpulseApplicationBody{h});
+  if (e.energy) task.add(EnergyLedgerRows{});
 }
 
 }  // namespace
@@ -70,11 +74,15 @@ void add_ndem(Task& task, const World& world, const Model& model, bool initial) 
   };
   if (model.periodic) add(*model.periodic);
   else add(OpenSpace{});
-  if (initial) return;
+  if (initial) {
+    if (e.energy) add_energy_ledger(task, model, e, 0);
+    return;
+  }
   if (e.bodies) task.add(SweptTest{model.time_step});
   add_integrate(task, model, e, model.time_step);
   add_crossings(task, model);
   if (e.moving_bodies) task.add(MoveBodies{model.pieces, model.bodies_at_start, model.time_step, model.time_step});
+  if (e.energy) add_energy_ledger(task, model, e, model.time_step);
 }
 
 }  // namespace skred

@@ -134,6 +134,16 @@ std::vector<RegionMeasures> measure_regions(const Simulation& sim, const std::ve
   return out;
 }
 
+std::vector<std::pair<const char*, double>> energy_columns(const EnergyLedger& l) {
+  const StoredEnergy& now = l.stored.data[0];
+  const EnergyFlow& flow = l.flow.data[0];
+  return {{"energy_translation", now.translation}, {"energy_rotation", now.rotation}, {"energy_gravity", now.gravity},
+          {"energy_elastic_normal", now.elastic_normal}, {"energy_elastic_tangential", now.elastic_tangential},
+          {"energy_elastic_rolling", now.elastic_rolling}, {"lost_to_normal_damping", flow.normal}, {"lost_to_friction", flow.tangential},
+          {"lost_to_rolling", flow.rolling}, {"lost_to_impacts", flow.impacts}, {"work_of_bodies", flow.bodies},
+          {"energy_error", energy_error(now, l.at_start.data[0], flow)}};
+}
+
 Frame make_frame(const Simulation& sim, const FrameOptions& options) {
   const World& w = sim.world();
   const Particles& p = std::get<Particles>(w);

@@ -2,6 +2,7 @@
 //
 // Sums run in order of id, so they have the same bits for any number of threads and any skin.
 #pragma once
+#include <utility>
 #include <vector>
 #include "engine/io/frame.h"
 #include "kernels/body_forces.h"
@@ -35,6 +36,9 @@ struct RegionMeasures {
   double coordination_number = 0;                     // contacts per particle, bodies included
 };
 std::vector<RegionMeasures> measure_regions(const Simulation&, const std::vector<Region>&);
+
+// The energy ledger by name [J] (engine/energy.h), the error by which it does not close last.
+std::vector<std::pair<const char*, double>> energy_columns(const EnergyLedger&);
 
 struct FrameOptions { bool contacts = false; };
 Frame make_frame(const Simulation&, const FrameOptions&);

@@ -44,6 +44,7 @@ void add_sdem(Task& task, const World& world, const Model& model, bool initial) 
   else add_application<false, false>(task, model, e, h);
   if (e.rigid_contacts) task.add(ForceApplicationBody<true>{model.gravity, h});
   else if (e.dynamic_bodies) task.add(ForceApplicationBody<false>{model.gravity, h});
+  if (e.energy) add_energy_ledger(task, model, e, h);
 }
 
 }  // namespace skred

@@ -27,4 +27,7 @@ void add_rigid_collision(Task&, const World&, const Effects&, double margin, boo
 // Contact force kernels, one template instance per combination of laws (tasks/force_kernels.cpp).
 void add_force_calculation(Task&, const World&, const Model&, const Effects&, double time_step);
 
+// The energy of the state at the end of a step and what became of it, where the output asks; time_step 0 before the first step.
+void add_energy_ledger(Task&, const Model&, const Effects&, double time_step);
+
 }  // namespace skred

@@ -96,7 +96,7 @@ bodies:
 start: {overlap_limit: 0.5, relax: true}
 limits: {overlap: 0.2}
 search: {skin: 0.001, cell_size: 0.1, reorder_every: 5}
-output: {frame_interval: 0.1, statistics_interval: 0.2, contacts: true, orientation: true, precision: double}
+output: {frame_interval: 0.1, statistics_interval: 0.2, contacts: true, orientation: true, energy: true, precision: double}
 )", (folder.path / "s.yaml").string(), {.overrides = {{"expected_speed", "0.3333"}}}));
 }
 

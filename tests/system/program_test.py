@@ -139,6 +139,41 @@ def case_nonsmooth_run(program):
         assert ("impact_solve" in text) == (not options)
 
 
+def case_energy_ledger(program):
+    """It is told where it is asked for, closes, and leaves no trace: nor do pictures, frames, threads and its columns together."""
+    names = ("energy_translation energy_rotation energy_gravity energy_elastic_normal energy_elastic_tangential energy_elastic_rolling "
+             "lost_to_normal_damping lost_to_friction lost_to_rolling lost_to_impacts work_of_bodies energy_error").split()
+    for method in ("sdem", "ndem"):
+        hashes = set()
+        for options in ([], ["--set", "output.energy=true"],
+                        ["--threads", "3", "--trace", "t.json", "--timeline", "t.svg", "--set",
+                         "output={energy: true, frame_interval: 2 ms, statistics_interval: 1 ms, contacts: true, orientation: true}"]):
+            program.run(*DRUM, "--method", method, *options, "--overwrite")
+            s = summary()
+            # The orientation of particles is part of the state, and so of the hash; nothing else of it may differ.
+            hashes.add((s["kinetic_energy"], s["contacts"]) if "orientation" in str(options) else s["state_hash"])
+            assert ("energy" in s) == bool(options), s.keys()
+            with open("out/statistics.csv", newline="") as text:
+                rows = list(csv.DictReader(text))
+            assert {f"{n} [J]" in rows[0] for n in names} == {bool(options)}, rows[0]
+            if not options:
+                plain = (s["kinetic_energy"], s["contacts"])
+                continue
+            assert (s["kinetic_energy"], s["contacts"]) == plain
+            e = s["energy"]
+            assert list(e) == sorted(names) and all(e[n] == float(rows[-1][f"{n} [J]"]) for n in names), e
+            moved = e["lost_to_normal_damping"] + e["lost_to_friction"] + e["lost_to_rolling"] + e["lost_to_impacts"]
+            bound = 1e-3 * moved if method == "sdem" else 0.02 * e["energy_translation"]     # m g^2 h t / 2 of a fall of 0.1 s
+            assert moved > 0 and abs(e["energy_error"]) < bound, e
+            assert e["work_of_bodies"] > 0, e
+            first = {n: float(rows[0][f"{n} [J]"]) for n in names}
+            change = sum(e[n] - first[n] for n in names if n.startswith("energy_") and n != "energy_error")
+            assert math.isclose(change + moved - e["work_of_bodies"], e["energy_error"], abs_tol=1e-9 * moved), (change, e)
+            text = program("graph", *DRUM[:3], "--method", method, *options).stdout if "--threads" not in options else ""
+            assert not text or ("energy_ledger" in text and "energy ledger                            in " in text), text
+        assert len(hashes) == 2, hashes                      # with and without the ledger: one hash
+
+
 def drum(program):
     """A real run, with bodies, contacts, many particles and 6 frames."""
     program.run(*DRUM, "--set", "output.frame_interval=0.02", "--set", "output.contacts=true")
@@ -300,6 +335,11 @@ def case_graph(program):
 def case_other_verbs(program):
     for name in ("hello", "drum", "silo", "laws"):
         contains(program("validate", scene(name)).stdout, [f"scene '{name}' is sound", "time step"])
+    for name in ("hello", "drum", "silo", "tower"):
+        for method in ("sdem", "ndem"):
+            done = program("validate", scene(name), "--method", method)
+            assert done.stderr == "" and "WARNING" not in done.stdout, done.stderr + done.stdout
+            contains(done.stdout, ["estimated before the run", "overlap under own weight", " ok"])
     schema = json.loads(program("schema").stdout)
     assert schema["type"] == "object" and "materials" in schema["properties"]
     contains(program("models").stdout, ["hertz", "spring", "Cundall & Strack 1979", "restitution"])
@@ -331,6 +371,19 @@ def case_contact_laws(program):
     contains(program("graph", scene("laws"), "--set", "contact.normal=linear").stdout, ["normal: linear, tangential: spring, rolling: spring"])
     contains(program("explain", "contact.tangential").stdout, ["haff_werner", "default spring"])
     contains(program("models").stdout, ["kuwabara_kono", "walton_braun", "constant_torque", "rolling_viscosity", "N s/m"])
+
+
+def case_guard_before_the_run(program):
+    """A scene that will go wrong is told so with numbers, in validate's table and in the log of a run; and it runs."""
+    soft = ["--set", "materials.rubber.youngs_modulus=50 kPa"]
+    done = program("validate", scene("hello"), *soft, says=["warning: overlap under own weight / radius: 0.1", "should be <= 0.08",
+                                                             "Hertz is for small overlaps"])
+    contains(done.stdout, ["WARNING", "sound"])
+    program.run(scene("hello"), *soft, "--end-time", "0.01 s", "--quiet", says=["warning: overlap under own weight"])
+    contains(read("out", "log.txt"), ["warning: overlap under own weight"])
+    floating = program("validate", scene("hello"), "--set", "gravity=[0, 0, 0]")
+    contains(floating.stdout, ["cannot be estimated: no gravity"])
+    assert floating.stderr == ""
 
 
 def case_wrong_usage(program):
