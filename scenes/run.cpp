@@ -21,6 +21,7 @@
 #include "scenes/progress.h"
 #include "scenes/recorder.h"
 #include "scenes/schema.h"
+#include "tasks/failed_contact.h"
 #include "tasks/rigid_checks.h"
 
 namespace skred {
@@ -46,12 +47,14 @@ std::shared_ptr<spdlog::logger> make_log(const OutputFolder& folder, const RunOp
 // How the solver of nonsmooth DEM did.
 struct Sweeps {
   std::int64_t contact = 0, most = 0, impact = 0, contact_sweeps = 0;   // sums over the steps; contact_sweeps: contacts times sweeps
-  double residual = 0, impact_residual = 0;                              // greatest at the end of a step
-  void add(const Solver& s) {
+  double residual = 0, error = 0, impact_residual = 0;                   // greatest at the end of a step
+  void add(const World& w) {
+    const Solver& s = std::get<Solver>(w);
     contact += s.sweeps.data[0], impact += s.impact_sweeps.data[0];
     most = std::max(most, s.sweeps.data[0]);
     contact_sweeps += s.sweeps.data[0] * s.contacts.data[0];
     residual = std::max(residual, s.residual.data[0]);
+    error = std::max(error, solver_error(w));
     impact_residual = std::max(impact_residual, s.impact_residual.data[0]);
   }
 };
@@ -77,6 +80,37 @@ std::string likely_cause(const Run& r) {
 }
 
 std::string when(const Run& r) { return fmt::format("t = {:g} s, step {}", r.sim.time(), r.sim.steps_done()); }
+
+// "contact of particle 3 (radius 0.01 m, mass 0.004 kg) and body 'floor'"; empty where no contact failed.
+std::string failed_contact_text(const Run& r) {
+  const World& w = r.sim.world();
+  const auto failed = failed_contact(w);
+  if (!failed) return "";
+  const Particles& p = std::get<Particles>(w);
+  const std::vector<Index> row = rows_by_id(p);
+  const auto particle = [&](Index id) {
+    return fmt::format("particle {} (radius {:g} m, mass {:g} kg)", id, p.radius.data[row[id]], p.mass.data[row[id]]);
+  };
+  const auto body = [&](Index b) { return "body '" + r.scene.bodies[b].name + "'"; };
+  std::string text = "contact of " + (failed->particle != no_index ? particle(failed->particle) : body(failed->body)) + " and " +
+                     (failed->partner != no_index ? particle(failed->partner) : body(failed->particle != no_index ? failed->body : failed->other_body));
+  if (failed->others > 0) text += fmt::format(", and {} more contact{}", failed->others, failed->others == 1 ? "" : "s");
+  return text;
+}
+
+std::string not_a_number_text(const Run& r) {
+  return "not a number; likely causes: masses, radii, stiffnesses or speeds so extreme that their products overflow, or " +
+         likely_cause(r).substr(std::string_view("likely causes: ").size());
+}
+
+// The contact at which a step ceased to have numbers. Throws NumericalFailure.
+void check_contacts(const Run& r) {
+  const bool unsolved = !std::isfinite(std::get<Solver>(r.sim.world()).residual.data[0]);   // never in smooth DEM
+  if (!unsolved && std::get<Search>(r.sim.world()).trouble.data[0] != Trouble::not_finite) return;
+  const std::string contact = failed_contact_text(r);
+  if (!contact.empty()) throw NumericalFailure(fmt::format("{}, {}: {}", when(r), contact, not_a_number_text(r)));
+  if (unsolved) throw NumericalFailure(fmt::format("{}, what the solver found is {}", when(r), not_a_number_text(r)));
+}
 
 // Dynamic bodies go where forces take them, like particles. Throws NumericalFailure.
 void check_bodies(const Run& r) {
@@ -107,6 +141,7 @@ void report_outside(Run& r) {
 // Throws NumericalFailure.
 void check_trouble(Run& r) {
   report_outside(r);
+  check_contacts(r);
   check_bodies(r);
   const Search& s = std::get<Search>(r.sim.world());
   if (s.trouble.data[0] == Trouble::none) return;
@@ -117,7 +152,7 @@ void check_trouble(Run& r) {
   const std::string where = fmt::format("{}, particle {} at ({:g}, {:g}, {:g}) m with ({:g}, {:g}, {:g}) m/s", when(r), id, x.x, x.y, x.z,
                                         v.x, v.y, v.z);
   switch (s.trouble.data[0]) {
-    case Trouble::not_finite: throw NumericalFailure(where + ": not a number; " + likely_cause(r));
+    case Trouble::not_finite: throw NumericalFailure(where + ": " + not_a_number_text(r));
     case Trouble::too_fast:
       if (r.scene.method == Method::ndem)
         throw NumericalFailure(where + ": it goes so far in one step that it could meet two images of another particle; " + likely_cause(r));
@@ -137,8 +172,10 @@ void take_row(Run& r) {
     throw NumericalFailure(fmt::format("{}, bodies '{}' and '{}': overlap of {:.3g} of the smaller outer radius, allowed {:g} (limits.overlap); {}",
                                        when(r), r.scene.bodies[o.body_a].name, r.scene.bodies[o.body_b].name, o.ratio,
                                        r.scene.limits.overlap, likely_cause(r)));
-  if (!std::isfinite(r.last.kinetic_energy + r.last.rotational_energy))   // what the last step did, no later one sees
-    throw NumericalFailure(fmt::format("{}: the kinetic energy is not a number; {}", when(r), likely_cause(r)));
+  if (!std::isfinite(r.last.kinetic_energy + r.last.rotational_energy)) {   // what the last step did, no later one sees
+    const std::string contact = failed_contact_text(r);
+    throw NumericalFailure(fmt::format("{}{}: the kinetic energy is {}", when(r), contact.empty() ? "" : ", " + contact, not_a_number_text(r)));
+  }
 }
 
 void count_for_trace(Run& r, const Measures& m) {
@@ -158,6 +195,8 @@ void add_solver(nlohmann::json& summary, const Run& r, const Timeline::Totals& t
   summary["impact_iterations"] = double(r.sweeps.impact) / steps;
   summary["residual"] = s.residual.data[0];
   summary["greatest_residual"] = r.sweeps.residual;
+  summary["error"] = solver_error(r.sim.world());
+  summary["greatest_error"] = r.sweeps.error;
   summary["steps_unsolved"] = s.unsolved.data[0];
   summary["greatest_impact_residual"] = r.sweeps.impact_residual;
   summary["impacts_unsolved"] = s.impacts_unsolved.data[0];
@@ -192,8 +231,9 @@ std::string solver_text(const Run& r) {
   const std::int64_t impacts_unsolved = std::get<Solver>(r.sim.world()).impacts_unsolved.data[0];
   std::string text = fmt::format(", {:.1f} sweeps a step", double(r.sweeps.contact) / steps);
   if (unsolved > 0)
-    text += fmt::format("; {} of {} steps stopped at {} sweeps above the tolerance {:g} (greatest residual {:.2g})", unsolved, r.sim.steps_done(),
-                        r.scene.solver.iterations, r.scene.solver.tolerance, r.sweeps.residual);
+    text += fmt::format("; {} of {} steps stopped at {} sweeps above the tolerance {:g} (greatest residual {:.2g}) or the error tolerance {:g} "
+                        "(greatest error {:.2g})", unsolved, r.sim.steps_done(), r.scene.solver.iterations, r.scene.solver.tolerance, r.sweeps.residual,
+                        error_tolerance_of(r.scene.solver, r.sim.effects().friction), r.sweeps.error);
   if (impacts_unsolved > 0)
     text += fmt::format("; the impact stage of {} steps stopped at {} sweeps above the tolerance (greatest residual {:.2g})", impacts_unsolved,
                         r.scene.solver.impact_iterations, r.sweeps.impact_residual);
@@ -252,7 +292,7 @@ bool advance(Run& r, const InterruptGuard& interrupt) {
     const std::int64_t n = r.sim.steps_done() + 1;
     r.sim.timeline().begin_step(n);                          // sampling and copying frames are part of the step that does them
     r.sim.step();
-    r.sweeps.add(std::get<Solver>(r.sim.world()));
+    r.sweeps.add(r.sim.world());
     check_trouble(r);
     if (n % r.every_row == 0 || n == r.steps) take_row(r);
     if (r.every_frame > 0 && n % r.every_frame == 0) r.recorder.frame();
