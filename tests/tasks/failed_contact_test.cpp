@@ -75,9 +75,9 @@ TEST(FailedContact, OfAForceThatOverflowsIsNamedInSmoothDem) {
   for (const bool at_wall : {false, true}) {
     Lab lab(0.5, 0.5, 0.1);
     lab.model.pairs = one_pair(0.5, 0.5, 0.1, {pellet_density, 1e307, 0.25});
-    lab.sphere({0, 0, at_wall ? 0.6 * R : 9 * R}, {}, {}, R, 1e-6);
-    lab.sphere({5 * R, 0, 9 * R}, {}, {}, R, 1e-6);
-    lab.sphere({at_wall ? 7.1 * R : 6 * R, 0, 9 * R}, {}, {}, R, 1e-6);
+    lab.sphere({0, 0, at_wall ? 0.6 * R : 9 * R}, {}, {}, R, 1e-20);
+    lab.sphere({5 * R, 0, 9 * R}, {}, {}, R, 1e-20);
+    lab.sphere({at_wall ? 7.1 * R : 6 * R, 0, 9 * R}, {}, {}, R, 1e-20);
     lab.body(PlaneShape{});
     auto s = lab.build();
     s->start();
