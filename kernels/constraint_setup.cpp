@@ -167,7 +167,7 @@ bool is_impact(double overlap, double velocity, const RowCoefficients& k, const 
 
 double impact_bias(double overlap, double radius_eff, double velocity, bool impact, const RowCoefficients& k) {
   if (impact) return -k.restitution * velocity;                                              // Newton: u_n+ = -e u_n-
-  return overlap > -contact_slack * radius_eff ? 0 : -std::numeric_limits<double>::infinity();
+  return overlap > -contact_slack * radius_eff ? -std::abs(velocity) : -std::numeric_limits<double>::infinity();
 }
 
 bool may_close(double overlap, double radius_eff, double velocity, const RowOptions& o) {

@@ -39,7 +39,8 @@ inline double normal_bias(double overlap, double allowance, double velocity_fact
 
 // Whether the impact stage turns a contact round: it closes faster than v_imp, and within the step.
 bool is_impact(double overlap, double velocity, const RowCoefficients&, const RowOptions&);
-// The velocity that it must leave with in the impact stage; a gap that is no impact takes no part.
+// The velocity that it must leave with in the impact stage. Other contacts may close as fast as they closed or parted before: then
+// impulses p do no work, p (u_n- + u_n+) / 2 <= 0 at every contact, for any restitution 0 .. 1. A gap that is no impact takes no part.
 double impact_bias(double overlap, double radius_eff, double velocity, bool impact, const RowCoefficients&);
 // A gap has rows if it can close within the step: by itself, or because gravity presses from behind.
 bool may_close(double overlap, double radius_eff, double velocity, const RowOptions&);

@@ -1,6 +1,7 @@
 #include "kernels/contact_solve.h"
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <numeric>
 #include "kernels/contact_blocks.h"
 
@@ -10,8 +11,9 @@ namespace {
 
 struct Outcome {
   int sweeps = 0;
-  double residual = 0;
+  double residual = 0;           // change of the last sweep, of all impulses; not finite where something is no number
   double left = 1;               // part that the sweeps leave of an error that falls as slowly as at the last of them
+  bool unsolved = false;         // stopped above a tolerance
 };
 
 // What the sweeps of a step work on.
@@ -41,7 +43,14 @@ double power(double x, int n) {
   return out;
 }
 
-double residual_of(const SweepChange& all) { return all.change > 0 ? all.change / all.total : 0; }
+double residual_of(const SweepChange& all) { return all.change == 0 ? 0 : all.change / all.total; }
+
+// Whether the last sweep, whose changes are `ratio` of those of the sweep before, may be the last. Changes that go on to fall like that
+// add up to ratio / (1 - ratio) times the last one; below `rounding` there is nothing left but rounding.
+bool is_enough(const SweepOptions& o, double residual, double ratio) {
+  constexpr double rounding = 1e-14;
+  return residual <= o.tolerance && (residual * ratio <= o.error_tolerance * (1 - ratio) || residual <= rounding);
+}
 
 Outcome solve(const Parallel& parallel, const SweepOptions& o, const System& of) {
   const auto& [first_of_colour, groups, bodies, change, hubs, inertia] = of;
@@ -64,7 +73,8 @@ Outcome solve(const Parallel& parallel, const SweepOptions& o, const System& of)
     }
     out.residual = residual_of(all);
     ratio = before > 0 ? std::min(1.0, all.change / before) : 1;
-    if (out.residual <= o.tolerance) break;
+    out.unsolved = o.tolerance > 0 && !is_enough(o, out.residual, ratio);
+    if (!std::isfinite(out.residual) || (o.tolerance > 0 && !out.unsolved)) break;
   }
   out.left = power(ratio, out.sweeps);
   return out;
@@ -94,10 +104,12 @@ Outcome solve_near(std::span<const Index> impacts, std::span<const BlockNeighbou
     const auto pressed = std::count_if(change.begin(), change.end(), [](const SweepChange& c) { return c.total > 0; });
     enough = pressed > 0 ? o.tolerance * all.total / double(pressed) : 0;
     out.residual = residual_of(all);
+    if (!std::isfinite(out.residual)) break;
     if (std::any_of(awake.begin(), awake.end(), [](const auto& a) { return a.load(std::memory_order_relaxed) != 0; })) continue;
     if (out.residual <= o.tolerance) break;                  // else some fell asleep when all impulses were larger
     for (std::size_t b = 0; b < awake.size(); ++b) awake[b].store(change[b].change > enough, std::memory_order_relaxed);
   }
+  out.unsolved = o.tolerance > 0 && !(out.residual <= o.tolerance);
   return out;
 }
 
@@ -114,12 +126,12 @@ void ImpactSolve::operator()(Parallel parallel, Read<&ContactBlocks::first_of_co
                                       : Outcome{};
   sweeps_done[0] = done.sweeps;
   residual[0] = done.residual;
-  unsolved[0] += done.residual > sweeps.tolerance && sweeps.tolerance > 0;
+  unsolved[0] += done.unsolved;
   if (impacts[0] == 0) return;
   for (HubContact& c : hubs) {
     c.impact_impulse = c.normal_impulse * c.normal + c.friction_impulse;
     c.normal_impulse = 0;
-    c.friction_impulse = {};
+    c.friction_impulse = c.rolling_impulse = {};
   }
   parallel(groups.size(), blocks_at_a_time, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b)
@@ -128,7 +140,7 @@ void ImpactSolve::operator()(Parallel parallel, Read<&ContactBlocks::first_of_co
         for (std::size_t l = 0; l < std::size_t(g.count); ++l)
           sources[b][k].impact_impulse[l] = g.normal_impulse[l] * at(g.normal, l) + at(g.friction_impulse, l);
         g.normal_impulse = {};
-        g.friction_impulse = {};
+        g.friction_impulse = g.rolling_impulse = {};
       }
   });
 }
@@ -143,7 +155,7 @@ void ContactSolve::operator()(Parallel parallel, Read<&ContactBlocks::first_of_c
   sweeps_done[0] = done.sweeps;
   residual[0] = done.residual;
   error_left[0] = done.left;
-  unsolved[0] += done.residual > sweeps.tolerance && sweeps.tolerance > 0;
+  unsolved[0] += done.unsolved;
 }
 
 }  // namespace skred

@@ -1,7 +1,7 @@
 // kernels/contact_solve.h - the velocities at the end of the step: sweeps of projected Gauss-Seidel until little changes (nonsmooth DEM).
 //
 // impact_solve   contacts that close faster than v_imp are turned round at once, u_n+ = -e u_n- [Newton's law; Moreau 1988], while
-//                no other contact may close.
+//                others resist what that presses on them (impact_bias in kernels/constraint_setup.h, give_of in kernels/contact_sweep.h).
 // contact_solve  the rows of engine/contact_rows.h, from where kernels/contact_start.h begins.
 #pragma once
 #include "engine/access.h"
@@ -11,7 +11,8 @@ namespace skred {
 
 struct SweepOptions {
   int most = 1;                  // sweeps, >= 1
-  double tolerance = 0;          // stop when a sweep changes less than this part of all impulses; 0: never
+  double tolerance = 0;          // stop when a sweep changes less than this part of all impulses ...
+  double error_tolerance = 0;    // ... and the changes to come, which fall as the last ones did, add up to less than this; 0: never
   double separation_speed = 0;   // [m/s] see SweepKind::limited
   SweepKind kind;                // of the contacts of dynamic bodies
   SweepGroups sweep = nullptr, measured_sweep = nullptr;

@@ -41,17 +41,19 @@ template <class R, SweepKind kind> [[gnu::always_inline]] inline void sweep_lane
   if constexpr (rotates) wa = load_quads<R>(angular_a), wb = load_quads<R>(angular_b);
   const V n = lanes_at<R>(g.normal, k);
 
-  // normal: p <- max(0, p + (b - u_n - S p) / (w_n + S))
+  // normal: p <- max(0, p + (b - u_n - S p) / (w_n + S)); what is not a number stays none, and is seen in the change
   const V dv = va.v - vb.v;
   const R u_n = dot(dv, n), p_before = lanes_at<R>(g.normal_impulse, k);
   R p_n;
-  if constexpr (kind.impact) p_n = p_before + (lanes_at<R>(g.bias, k) - u_n) * lanes_at<R>(g.free_step, k);
-  else p_n = p_before + (lanes_at<R>(g.bias, k) - u_n - lanes_at<R>(g.compliance, k) * p_before) * lanes_at<R>(g.normal_step, k);
+  if constexpr (kind.impact) {
+    const R bias = lanes_at<R>(g.bias, k), give = select(bias > R(0), R(0), give_of(lanes_at<R>(g.compliance, k) * lanes_at<R>(g.normal_step, k)));
+    p_n = p_before + (bias - u_n) * ((R(1) - give) * lanes_at<R>(g.free_step, k)) - give * p_before;
+  } else p_n = p_before + (lanes_at<R>(g.bias, k) - u_n - lanes_at<R>(g.compliance, k) * p_before) * lanes_at<R>(g.normal_step, k);
   if constexpr (kind.limited) {                              // no more than leaves the contact at that speed
     const R most = p_before + (separation_speed - u_n) * lanes_at<R>(g.free_step, k);
     p_n = select(p_n > most, most, p_n);
   }
-  p_n = select(p_n > R(0), p_n, R(0));
+  p_n = select(p_n < R(0), R(0), p_n);
   put_lanes(p_n, g.normal_impulse, k);
   V impulse = (p_n - p_before) * n;
   R change = abs(p_n - p_before);

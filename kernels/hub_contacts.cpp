@@ -161,9 +161,11 @@ void sweep_hubs(std::span<HubContact> hubs, std::span<SolverBody> bodies, std::s
     const auto exchange = [&](const Vec3& p) { s.a.push(p), s.b.push(-p); };
     Vec3 u = s.a.velocity() - s.b.velocity();
     const double u_n = dot(u, c.normal), before = c.normal_impulse;
-    double p_n = kind.impact ? before + (c.bias - u_n) * c.free_step : before + (c.bias - u_n - c.compliance * before) * c.normal_step;
+    const double give = !kind.impact ? 0 : c.bias > 0 ? 0 : give_of(c.compliance * c.normal_step);   // as for particles
+    double p_n = kind.impact ? before + (c.bias - u_n) * ((1 - give) * c.free_step) - give * before
+                             : before + (c.bias - u_n - c.compliance * before) * c.normal_step;
     if (kind.limited) p_n = std::min(p_n, before + (separation_speed - u_n) * c.free_step);
-    c.normal_impulse = std::max(0.0, p_n);
+    c.normal_impulse = p_n < 0 ? 0 : p_n;
     exchange((c.normal_impulse - before) * c.normal);
     change.change += std::abs(c.normal_impulse - before);
     change.total += c.normal_impulse;

@@ -29,7 +29,9 @@ SKRED_INSTANTIATE_SUM(true, true, true)
   template void ContactSweep<SweepKind{__VA_ARGS__, false}>::run<VectorPath::SKRED_PATH>(std::span<ContactGroup>, std::span<const ContactGroup>, SolverBody*, double, SweepChange&); \
   template void ContactSweep<SweepKind{__VA_ARGS__, true}>::run<VectorPath::SKRED_PATH>(std::span<ContactGroup>, std::span<const ContactGroup>, SolverBody*, double, SweepChange&);
 SKRED_INSTANTIATE_SWEEP(true, false, false, false)           // impact, friction, rolling, limited
+SKRED_INSTANTIATE_SWEEP(true, false, true, false)
 SKRED_INSTANTIATE_SWEEP(true, true, false, false)
+SKRED_INSTANTIATE_SWEEP(true, true, true, false)
 SKRED_INSTANTIATE_SWEEP(false, false, false, false)
 SKRED_INSTANTIATE_SWEEP(false, false, false, true)
 SKRED_INSTANTIATE_SWEEP(false, false, true, false)

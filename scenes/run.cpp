@@ -47,12 +47,14 @@ std::shared_ptr<spdlog::logger> make_log(const OutputFolder& folder, const RunOp
 // How the solver of nonsmooth DEM did.
 struct Sweeps {
   std::int64_t contact = 0, most = 0, impact = 0, contact_sweeps = 0;   // sums over the steps; contact_sweeps: contacts times sweeps
-  double residual = 0, impact_residual = 0;                              // greatest at the end of a step
-  void add(const Solver& s) {
+  double residual = 0, error = 0, impact_residual = 0;                   // greatest at the end of a step
+  void add(const World& w) {
+    const Solver& s = std::get<Solver>(w);
     contact += s.sweeps.data[0], impact += s.impact_sweeps.data[0];
     most = std::max(most, s.sweeps.data[0]);
     contact_sweeps += s.sweeps.data[0] * s.contacts.data[0];
     residual = std::max(residual, s.residual.data[0]);
+    error = std::max(error, solver_error(w));
     impact_residual = std::max(impact_residual, s.impact_residual.data[0]);
   }
 };
@@ -103,6 +105,8 @@ void add_solver(nlohmann::json& summary, const Run& r, const Timeline::Totals& t
   summary["impact_iterations"] = double(r.sweeps.impact) / steps;
   summary["residual"] = s.residual.data[0];
   summary["greatest_residual"] = r.sweeps.residual;
+  summary["error"] = solver_error(r.sim.world());
+  summary["greatest_error"] = r.sweeps.error;
   summary["steps_unsolved"] = s.unsolved.data[0];
   summary["greatest_impact_residual"] = r.sweeps.impact_residual;
   summary["impacts_unsolved"] = s.impacts_unsolved.data[0];
@@ -148,8 +152,9 @@ std::string solver_text(const Run& r) {
   const std::int64_t impacts_unsolved = std::get<Solver>(r.sim.world()).impacts_unsolved.data[0];
   std::string text = fmt::format(", {:.1f} sweeps a step", double(r.sweeps.contact) / steps);
   if (unsolved > 0)
-    text += fmt::format("; {} of {} steps stopped at {} sweeps above the tolerance {:g} (greatest residual {:.2g})", unsolved, r.sim.steps_done(),
-                        r.scene.solver.iterations, r.scene.solver.tolerance, r.sweeps.residual);
+    text += fmt::format("; {} of {} steps stopped at {} sweeps above the tolerance {:g} (greatest residual {:.2g}) or the error tolerance {:g} "
+                        "(greatest error {:.2g})", unsolved, r.sim.steps_done(), r.scene.solver.iterations, r.scene.solver.tolerance, r.sweeps.residual,
+                        error_tolerance_of(r.scene.solver, r.sim.effects().friction), r.sweeps.error);
   if (impacts_unsolved > 0)
     text += fmt::format("; the impact stage of {} steps stopped at {} sweeps above the tolerance (greatest residual {:.2g})", impacts_unsolved,
                         r.scene.solver.impact_iterations, r.sweeps.impact_residual);
@@ -208,7 +213,7 @@ bool advance(Run& r, const InterruptGuard& interrupt) {
     const std::int64_t n = r.sim.steps_done() + 1;
     r.sim.timeline().begin_step(n);                          // sampling and copying frames are part of the step that does them
     r.sim.step();
-    r.sweeps.add(std::get<Solver>(r.sim.world()));
+    r.sweeps.add(r.sim.world());
     r.particle_steps += std::int64_t(std::get<Particles>(r.sim.world()).rows());
     report_outside(r);
     check_trouble(r.scene, r.sim);

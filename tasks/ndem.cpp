@@ -3,6 +3,7 @@
 // Servin, Wang, Lacoursiere & Bodin 2014: the velocities v(n+1) solve the rows of engine/contact_rows.h at x(n); then
 // x(n+1) = x(n) + h v(n+1).
 #include <algorithm>
+#include <limits>
 #include "kernels/constraint_setup.h"
 #include "kernels/contact_solve.h"
 #include "kernels/contact_start.h"
@@ -28,7 +29,8 @@ std::vector<RowCoefficients> coefficients(const Model& m) {
 }
 
 template <bool impact, bool friction, bool rolling, bool limited> SweepOptions options(const Model& m, int most) {
-  return {most, m.solver.tolerance, m.solver.separation_speed.value_or(0), {impact, friction, rolling, limited, true},
+  const double error_tolerance = impact ? std::numeric_limits<double>::infinity() : error_tolerance_of(m.solver, friction);
+  return {most, m.solver.tolerance, error_tolerance, m.solver.separation_speed.value_or(0), {impact, friction, rolling, limited, true},
           contact_sweep<SweepKind{impact, friction, rolling, limited, false}>(m.vector_path),
           contact_sweep<SweepKind{impact, friction, rolling, limited, true}>(m.vector_path)};
 }
@@ -36,6 +38,11 @@ template <bool impact, bool friction, bool rolling, bool limited> SweepOptions o
 template <bool rolling, bool limited> SweepOptions contact_sweeps(const Model& m, const Effects& e) {
   return e.friction ? options<false, true, rolling, limited>(m, m.solver.iterations)
                     : options<false, false, rolling, limited>(m, m.solver.iterations);
+}
+
+template <bool rolling> SweepOptions impact_sweeps(const Model& m, const Effects& e) {
+  return e.friction ? options<true, true, rolling, false>(m, m.solver.impact_iterations)
+                    : options<true, false, rolling, false>(m, m.solver.impact_iterations);
 }
 
 template <bool rolling, class Space> void add_solver(Task& task, const World& w, const Model& m, const Effects& e, const Space& space, bool initial) {
@@ -48,9 +55,7 @@ template <bool rolling, class Space> void add_solver(Task& task, const World& w,
   task.add(ConstraintSetup<Space>{space, rows, m.pairs.count, coefficients(m), largest_radius(w, m)});
   if (e.dynamic_bodies) task.add(ConstraintSetupBody{rows, m.pairs.count, coefficients(m)});
   if (e.energy) task.add(EnergyLedgerBefore{});
-  if (e.impacts)
-    task.add(ImpactSolve{e.friction ? options<true, true, false, false>(m, m.solver.impact_iterations)
-                                    : options<true, false, false, false>(m, m.solver.impact_iterations)});
+  if (e.impacts) task.add(ImpactSolve{rolling && m.solver.impact_rolling ? impact_sweeps<rolling>(m, e) : impact_sweeps<false>(m, e)});
   if (e.energy && e.impacts) task.add(EnergyLedgerImpacts{});
   const bool limited = m.solver.separation_speed.has_value();
   task.add(ContactStart<rolling>{h, m.gravity, m.solver.warm_start, std::max(m.solver.trusted_residual, m.solver.tolerance)});

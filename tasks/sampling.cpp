@@ -1,6 +1,7 @@
 #include "tasks/sampling.h"
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace skred {
@@ -184,6 +185,14 @@ Frame make_frame(const Simulation& sim, const FrameOptions& options) {
   for (std::size_t k = 0; k < b.rows(); ++k)
     f.bodies.push_back({b.pose.data[k], b.velocity.data[k], b.angular_velocity.data[k], loads[k].force, loads[k].torque});
   return f;
+}
+
+double solver_error(const World& w) {
+  const Solver& s = std::get<Solver>(w);
+  if (s.sweeps.data[0] == 0 || s.residual.data[0] == 0) return 0;
+  const double left = std::max(s.error_left.data[0], std::numeric_limits<double>::min());
+  const double ratio = std::pow(left, 1 / double(s.sweeps.data[0]));
+  return s.residual.data[0] * ratio / (1 - ratio);
 }
 
 }  // namespace skred

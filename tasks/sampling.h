@@ -43,4 +43,8 @@ std::vector<std::pair<const char*, double>> energy_columns(const EnergyLedger&);
 struct FrameOptions { bool contacts = false; };
 Frame make_frame(const Simulation&, const FrameOptions&);
 
+// What the solver of nonsmooth DEM reckons is left to be changed in its impulses, as part of their sum: its changes fell by some ratio
+// from sweep to sweep, and go on so. Infinite where they do not fall; 0 in smooth DEM.
+double solver_error(const World&);
+
 }  // namespace skred

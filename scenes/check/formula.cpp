@@ -16,6 +16,7 @@ namespace {
 
 Scope& scope_of(void* data) { return *static_cast<Scope*>(data); }
 
+// Of what is counted from 0 without gaps.
 std::size_t index(double value, std::size_t count, const char* what) {
   if (!(value >= 0) || value != std::floor(value) || value >= double(count))
     fail(count == 0 ? fmt::format("there is no {}", what) : fmt::format("{} {:g}: there are 0 .. {}", what, value, count - 1));

@@ -11,30 +11,49 @@ using namespace lab;
 
 // A tower a thousand times stiffer than the pellets, at rest from the start, with far fewer sweeps than it needs: after a
 // second nothing may move. Impulses of the last step that are far from the solution must not be taken whole.   T4
-double greatest_speed_of_tower(double trusted_residual, int sweeps) {
+double greatest_speed_of_tower(const SolverOptions& solver) {
   constexpr int n = 50;
   NonsmoothLab lab(0.18, 0, 0);
   lab.model.pairs = one_pair(0.18, 0, 0, {pellet_density, 1e3 * pellet.youngs_modulus, pellet.poissons_ratio});
   lab.under_gravity();
   lab.floor();
   for (const double z : column_at_rest(lab, n)) lab.sphere({0, 0, z});
-  lab.model.solver.iterations = sweeps;
-  lab.model.solver.tolerance = 0;
-  lab.model.solver.trusted_residual = trusted_residual;
+  lab.model.solver = solver;
   auto s = lab.build();
-  run(*s, 1);
-  return measure(*s).max_speed;
+  run(*s, 0.9);
+  double speed = 0;
+  while (s->time() < 1 - 1e-9) {
+    s->step(Execution::list);
+    speed = std::max(speed, measure(*s).max_speed);
+  }
+  return speed;
+}
+SolverOptions few_sweeps(double trusted_residual) {
+  SolverOptions o;
+  o.iterations = 20;
+  o.tolerance = 0;
+  o.trusted_residual = trusted_residual;
+  return o;
 }
 
 TEST(HardCases, GuardedWarmStartKeepsAStiffTowerStill) {
-  const double speed = greatest_speed_of_tower(SolverOptions{}.trusted_residual, 20);
+  const double speed = greatest_speed_of_tower(few_sweeps(SolverOptions{}.trusted_residual));
   RecordProperty("speed", std::to_string(speed));
   EXPECT_LT(speed, 1e-3);
 }
 TEST(HardCases, UnguardedWarmStartDoesNot) {
-  const double speed = greatest_speed_of_tower(std::numeric_limits<double>::infinity(), 20);
+  const double speed = greatest_speed_of_tower(few_sweeps(std::numeric_limits<double>::infinity()));
   RecordProperty("speed", std::to_string(speed));
   EXPECT_FALSE(speed < 1e-3);
+}
+// As it comes: the tolerance bounds the error, and not what the last of many slow sweeps changed.
+TEST(HardCases, ProductionSettingsKeepAStiffTowerStill) {
+  const double speed = greatest_speed_of_tower({});
+  RecordProperty("speed", std::to_string(speed));
+  EXPECT_LT(speed, 1e-3);
+  SolverOptions by_change;
+  by_change.error_tolerance = std::numeric_limits<double>::infinity();
+  EXPECT_GT(greatest_speed_of_tower(by_change), 1e-3);
 }
 
 // A heavy sphere on a light one on a floor, as good as rigid, started cold: the error falls by 1 + m/M per sweep.   T5
@@ -213,8 +232,8 @@ TEST(HardCases, PackStandsOnItsFloorWithItsWeight) {           // T17
   }
 }
 
-// A squeezed pile that is its own mirror image: so are its forces, as far as the solver was driven. An error that falls by rho with every
-// sweep is 1/(1 - rho) of what the last one changed.   T23
+// A squeezed pile that is its own mirror image: so are its forces, as far as the solver was driven. The automatic error tolerance is that
+// of all scenes without friction; with friction it has to be asked for.   T23
 TEST(HardCases, MirroredPileHasMirroredForces) {
   for (const double friction : {0.0, 0.5})
     for (const double tolerance : {1e-6, 1e-9}) {
@@ -232,6 +251,7 @@ TEST(HardCases, MirroredPileHasMirroredForces) {
           mirror.push_back(static_cast<Index>(first + base - k - 1 - i));
         }
       lab.model.solver.tolerance = tolerance;
+      if (friction > 0) lab.model.solver.error_tolerance = tolerance;
       auto s = lab.build();
       const auto asymmetry = [&] {                             // of all forces
         std::vector<Index> order(mirror.size());
@@ -249,12 +269,14 @@ TEST(HardCases, MirroredPileHasMirroredForces) {
       s->start();
       s->step();
       const Solver& solver = std::get<Solver>(s->world());
-      const double rho = std::pow(solver.error_left.data[0], 1.0 / double(solver.sweeps.data[0])), once = asymmetry();
-      EXPECT_LT(once, tolerance / (1 - rho)) << friction;
+      const double once = asymmetry();
+      const auto sweeps = solver.sweeps.data[0];
+      EXPECT_EQ(solver.unsolved.data[0], 0);
+      EXPECT_LT(once, tolerance) << friction;
       while (s->time() < 1) s->step();
       const double later = asymmetry();                        // of all the errors until then
       RecordProperty((friction > 0 ? "friction_" : "smooth_") + std::string(tolerance > 1e-8 ? "1e-6" : "1e-9"),
-                     "rho " + std::to_string(rho) + ", " + std::to_string(once / tolerance) + ", after a second " + std::to_string(later / tolerance));
+                     std::to_string(sweeps) + " sweeps, " + std::to_string(once / tolerance) + ", after a second " + std::to_string(later / tolerance));
     }
 }
 
@@ -315,6 +337,75 @@ TEST(HardCases, UndampedContactsKeepTheEnergy) {
     EXPECT_NEAR(low, 1, 0.006) << part_of_contact;
     EXPECT_NEAR(high, 1, 0.006) << part_of_contact;
   }
+}
+
+// A ball that falls on a column of thirty at rest, in one step. Rigid, each contact would hand the shock on to all below, and 30 of them
+// need 0.4 n^2 sweeps per factor e; with the compliance of rest it stays above.
+TEST(HardCases, ImpactsOnABedNeedFewSweeps) {
+  constexpr int n = 30;
+  NonsmoothLab lab(0.18, 0.5, 0.1);
+  lab.under_gravity();
+  lab.floor();
+  const std::vector<double> z = column_at_rest(lab, n);
+  for (const double height : z) lab.sphere({0, 0, height});
+  lab.sphere({0, 0, z.back() + 2 * R}, {0, 0, -1});
+  lab.model.solver = {};
+  auto s = lab.build();
+  s->start();
+  s->step();
+  const Solver& solver = std::get<Solver>(s->world());
+  EXPECT_EQ(solver.impacts.data[0], 1);
+  EXPECT_EQ(solver.impacts_unsolved.data[0], 0);
+  RecordProperty("sweeps", std::to_string(solver.impact_sweeps.data[0]));
+  EXPECT_LT(solver.impact_sweeps.data[0], 30);
+  EXPECT_LT(norm(velocity(*s, 0)), 1e-3);                      // the lowest has not felt it yet
+}
+
+// Spheres that all touch and move at random: whatever the restitution, the impacts of one step give no energy.
+TEST(HardCases, ImpactsNeverGiveEnergy) {
+  for (const double restitution : {0.18, 0.5, 1.0})
+    for (const double friction : {0.0, 0.5})
+      for (unsigned seed = 1; seed <= 5; ++seed) {
+        NonsmoothLab lab(restitution, friction, 0);
+        add_cloud(lab, 4, 1.8 * R, seed, 0, false);            // of radius 0.9 R
+        std::mt19937_64 random(seed);
+        std::normal_distribution<double> u(0, 0.3);
+        Index k = 0;
+        for (Vec3& x : lab.particles().position.data) {
+          const Vec3 site{double(k % 4), double(k / 4 % 4), double(k / 16)};
+          x = 1.8 * R * site;                                  // without add_cloud's disorder: all touch, none overlaps
+          lab.particles().velocity.data[k] = {u(random), u(random), u(random)};
+          ++k;
+        }
+        lab.model.solver.impact_iterations = 20000;
+        lab.model.solver.impact_speed = 0.2;
+        auto s = lab.build();
+        s->start();
+        const auto energy = [&] { const Measures seen = measure(*s); return seen.kinetic_energy + seen.rotational_energy; };
+        const double before = energy();
+        s->step();
+        EXPECT_GT(std::get<Solver>(s->world()).impacts.data[0], 20);
+        EXPECT_EQ(std::get<Solver>(s->world()).impacts_unsolved.data[0], 0);
+        EXPECT_LE(energy(), before * (1 + 1e-9)) << restitution << " " << friction << " " << seed;
+      }
+}
+
+// Rolling resistance in impacts, where it is asked for: |L| <= mu_r R p_n, and no more than stops the spin.
+TEST(HardCases, RollingResistanceMayActInImpacts) {
+  const double e = 0.5, mu_r = 0.3, vn = 0.5, limit = 2.5 * mu_r * (1 + e) * vn / R;   // of the change of spin
+  for (const bool acts : {false, true})
+    for (const double w : {0.5 * limit, 3 * limit}) {
+      NonsmoothLab lab(e, 0, mu_r);
+      lab.floor();
+      lab.sphere({0, 0, R + 1e-10}, {0, 0, -vn}, {0, w, 0});
+      lab.model.solver.impact_speed = 0.1;
+      lab.model.solver.impact_rolling = acts;
+      auto s = lab.build();
+      s->start();
+      s->step();
+      EXPECT_NEAR(spin(*s, 0).y, acts ? std::max(0.0, w - limit) : w, 1e-6 * w);
+      EXPECT_NEAR(velocity(*s, 0).z, e * vn, 1e-9);
+    }
 }
 
 // --- gross sliding, exactly: Chung & Ooi 2011, tests 4 to 8, for a rigid contact -------------------------------------------------
