@@ -172,7 +172,7 @@ TEST(BadScene, WrongType) {
   EXPECT_THAT(errors_of(head + one_particle + "seed: 18446744073709551616\n"),
               HasSubstr("too large: must be <= 18446744073709551615"));
   EXPECT_THAT(errors_of(head + one_particle + "time_step:\n"), HasSubstr("time_step: expected a number in s, got nothing"));
-  EXPECT_THAT(errors_of(head + one_particle + "contact: {normal: hooke}\n"), HasSubstr("'hooke' is not one of hertz, none"));
+  EXPECT_THAT(errors_of(head + one_particle + "contact: {normal: hooke}\n"), HasSubstr("'hooke' is not one of hertz, linear, kuwabara_kono, walton_braun, none"));
   EXPECT_THAT(errors_of(head + one_particle + "name: a/b\n"), HasSubstr("'a/b' is not a name"));
   EXPECT_THAT(errors_of("[1, 2]"), HasSubstr("a scene is a mapping of keys, not a list"));
 }
