@@ -105,7 +105,7 @@ StatisticsRow statistics_row(const Scene& scene, const Simulation& sim, const Me
     const Solver& s = std::get<Solver>(sim.world());
     add("solver_sweeps", "1", double(s.sweeps.data[0]));
     add("solver_residual", "1", s.residual.data[0]);
-    add("solver_error", "1", solver_error(sim_.world()));
+    add("solver_error", "1", solver_error(sim.world()));
     add("impacts", "1", double(s.impacts.data[0]));
     add("impact_sweeps", "1", double(s.impact_sweeps.data[0]));
     add("impact_residual", "1", s.impact_residual.data[0]);

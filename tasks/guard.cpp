@@ -84,6 +84,8 @@ class Guard {
   }
   void unknown(const char* quantity, const char* why) { out_.push_back({quantity, "", "", Finding::Verdict::unknown, why}); }
   double h() const { return m_.time_step; }
+  bool hertz() const { return m_.method == Method::ndem || !is_linear(m_.contact.normal); }
+  const char* no_hertz() const { return hertz() ? nullptr : "the scene's normal law is not Hertz's"; }
   const char* no_bed() const {
     return std::get<Particles>(w_).rows() == 0 ? "no particles at the start" : m_.gravity == Vec3{} ? "no gravity" : nullptr;
   }
@@ -99,7 +101,7 @@ class Guard {
   // With the overlap of the fastest impact or of the bed at rest, whichever is deeper: stiffness grows as its root.
   void step_against_packing() {
     if (!(advice_.step > 0)) return unknown("step / limits of a packing", "no particles at the start");
-    const double deeper = std::max(1.0, bed_.overlap / advice_.overlap);
+    const double deeper = hertz() ? std::max(1.0, bed_.overlap / advice_.overlap) : 1;
     const double springs = h() / (advice_.stability_limit / std::pow(deeper, 0.25)), dashpots = h() / (advice_.damping_limit / std::pow(deeper, 0.25));
     const std::string under = deeper > 1 ? " under the weight of the bed" : "";
     say("step / limit of springs of a packing", text("%.2g", springs), text("<= %g", most_of_springs), springs > most_of_springs,
@@ -110,13 +112,14 @@ class Guard {
 
   void motion_in_a_step(double limit, const char* why) {
     if (std::get<Particles>(w_).rows() == 0) return unknown("motion in a step / smallest radius", "no particles at the start");
-    const double part = speed_ * h() / smallest_radius(w_);
+    const double part = speed_ * h() / smallest_radius(w_, m_);
     say("motion in a step / smallest radius", text("%.2g", part), text("<= %g", limit), part > limit, text("at %.3g m/s ", speed_) + why);
   }
 
   // Of two mean particles of the softest pair, (5 m_eff e v^2 / (4 k))^(2/5): that of the elastic impact, less what the dashpot takes.
   void deepest_impact() {
     if (std::get<Particles>(w_).rows() == 0) return unknown("overlap of the fastest impact / radius", "no particles at the start");
+    if (const char* why = no_hertz()) return unknown("overlap of the fastest impact / radius", why);
     double e = 0;
     for (const PairCoefficients& k : m_.pairs.values) e = std::max(e, k.restitution);
     const double radius = mean_radius(w_), stiffness = 4.0 / 3.0 * moduli_of(w_, m_).softest * std::sqrt(radius / 2);
@@ -129,6 +132,7 @@ class Guard {
   void overlap_of_bed() {
     const char* quantity = "overlap under own weight / radius";
     if (const char* why = no_bed()) return unknown(quantity, why);
+    if (const char* why = no_hertz()) return unknown(quantity, why);
     const double ratio = bed_.overlap / bed_.radius;
     const std::string load = text("about %.0f particles above one another press with %.3g N: ", bed_.layers, bed_.force);
     const std::string help = text("; youngs_modulus %.2g times as high gives 2 %%", std::pow(ratio / 0.02, 1.5));
@@ -230,7 +234,7 @@ Bed bed_of(const World& w, const Model& m) {
 }
 
 std::vector<Finding> guard(const World& w, const Model& m, double speed, double overlap_limit) {
-  if (!m.normal_law) return {};                                // nothing touches anything
+  if (m.contact.normal == NormalLaw::none) return {};                                // nothing touches anything
   return Guard(w, m, speed, overlap_limit).findings();
 }
 
