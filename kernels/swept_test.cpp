@@ -1,6 +1,7 @@
 #include "kernels/swept_test.h"
 #include <algorithm>
 #include "engine/geometry/mesh.h"
+#include "engine/periodic.h"
 
 namespace skred {
 
@@ -40,8 +41,9 @@ Free free_path(const Shape& shape, const Vec3& x, const Vec3& d, double radius, 
 
 }  // namespace
 
-void SweptTest::operator()(Parallel parallel, Read<&Particles::position> position, Read<&Particles::radius> radius,
-    Update<&Particles::velocity> velocity, Read<&BodyIncidence::first> first, Read<&BodyContacts::geometry> geometry,
+template <class Space>
+void SweptTest<Space>::operator()(Parallel parallel, Read<&Particles::position> position, Read<&Particles::radius> radius,
+    Read<&Particles::searched> searched, Read<&Particles::search_margin> search_margin, Update<&Particles::velocity> velocity, Read<&BodyIncidence::first> first, Read<&BodyContacts::geometry> geometry,
     Read<&BodyContacts::slot> slot, Read<&BodyContacts::first_triangle> first_triangle, Read<&BodyContacts::triangle_count> triangle_count,
     Read<&Triangles::triangle> triangle, Read<&Geometries::body> body, Read<&Geometries::shape> shape, Read<&Geometries::local> local,
     Read<&Bodies::pose> pose, Read<&Bodies::velocity> body_velocity, Read<&Bodies::angular_velocity> body_spin) const {
@@ -50,6 +52,9 @@ void SweptTest::operator()(Parallel parallel, Read<&Particles::position> positio
   parallel(position.size(), 4096, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
       const Vec3 x = position[p];
+      // Walls within a radius of the margin are listed: a centre that stays half a radius short of that meets no other.
+      const double known = search_margin[p] + 0.5 * radius[p] - norm(space.shortest(x - searched[p]));
+      if (const double way = time_step * norm(velocity[p]); way > known) velocity[p] *= std::max(0.0, known) / way;
       for (int met = 0; met <= most_walls; ++met) {
         bool stopped = false;
         for (Index c = first[p]; c < first[p + 1]; ++c) {
@@ -72,5 +77,8 @@ void SweptTest::operator()(Parallel parallel, Read<&Particles::position> positio
     }
   });
 }
+
+template struct SweptTest<OpenSpace>;
+template struct SweptTest<PeriodicSpace>;
 
 }  // namespace skred
