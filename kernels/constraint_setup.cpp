@@ -148,13 +148,14 @@ void write_rows(const Touch& t, const RowOptions& o, const SolverBody* bodies, c
   source.velocity_factor[lane] = row.velocity_factor;
 }
 
-// A gap that is nothing but rounding, in effective radii: spheres placed to touch do.
+// A gap or an overlap that is nothing but rounding, in effective radii: spheres placed to touch do, without a force, and are as rigid as
+// a gap that has closed.
 constexpr double contact_slack = 1e-9;
 
 }  // namespace
 
 NormalRow normal_row(double overlap, double radius_eff, double mass_eff, const RowCoefficients& k, const RowOptions& o) {
-  if (!(overlap > 0)) return {};
+  if (!(overlap > contact_slack * radius_eff)) return {};
   const double h = o.time_step, stiffness = k.hertz * std::sqrt(radius_eff * overlap);    // k sqrt(overlap)
   const double dashpot = 4 / std::sqrt(5.0) * k.damping_ratio * std::sqrt(mass_eff / stiffness);
   const double tau = std::max(o.damping_steps * h, dashpot), factor = h / (h + 4 * tau);

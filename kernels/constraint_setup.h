@@ -28,13 +28,13 @@ struct RowOptions {
   bool impacts;              // is there an impact stage
 };
 
-// S and Y of a normal row (engine/contact_rows.h); both 0 for a gap.
+// S and Y of a normal row (engine/contact_rows.h); both 0 for a gap, and for spheres that do no more than touch.
 struct NormalRow { double compliance = 0, velocity_factor = 0; };
 NormalRow normal_row(double overlap, double radius_eff, double mass_eff, const RowCoefficients&, const RowOptions&);
 
 // b of a normal row, from u_n before gravity [m/s].
 inline double normal_bias(double overlap, double allowance, double velocity_factor, double velocity, double time_step) {
-  return overlap > 0 ? 16.0 / 5.0 * (velocity_factor / time_step) * overlap + velocity_factor * velocity : (overlap - allowance) / time_step;
+  return velocity_factor > 0 ? 16.0 / 5.0 * (velocity_factor / time_step) * overlap + velocity_factor * velocity : (overlap - allowance) / time_step;
 }
 
 // Whether the impact stage turns a contact round: it closes faster than v_imp, and within the step.

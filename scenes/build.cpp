@@ -1,5 +1,6 @@
 #include "scenes/build.h"
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include "scenes/pairs.h"
 
@@ -117,7 +118,7 @@ Model build_model(const Scene& scene) {
   m.orientation = scene.output.orientation;
   m.energy = scene.output.energy;
   if (scene.periodic[0].on || scene.periodic[1].on || scene.periodic[2].on) {
-    const auto low = [&](int a) { return scene.periodic[a].on ? scene.periodic[a].min : 0.0; };
+    const auto low = [&](int a) { return scene.periodic[a].on ? scene.periodic[a].min : std::numeric_limits<double>::lowest(); };   // nothing is below
     const auto length = [&](int a) {
       return scene.periodic[a].on ? scene.periodic[a].max - scene.periodic[a].min : std::numeric_limits<double>::infinity();
     };

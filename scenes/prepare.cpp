@@ -70,6 +70,14 @@ void check_periodic(const Scene& scene, const World& world, const Model& model) 
                                      "xyz"[a], p.max - p.min, least));
 }
 
+// What other laws store of the work done on them, the ledger has not learnt.
+void check_energy(const Scene& scene, const World& world, const Model& model) {
+  if (scene.output.energy && decide_effects(world, model).chosen)
+    throw SceneRefused(fmt::format("output.energy: the energy ledger knows the laws {{normal: hertz, tangential: spring, rolling: spring}} without "
+                                   "rolling_damping, and none in place of one; this scene has {{normal: {}, tangential: {}, rolling: {}}}",
+                                   word_of(scene.contact.normal), word_of(scene.contact.tangential), word_of(scene.contact.rolling)));
+}
+
 constexpr double most_steps = 1e15;                 // of a run: centuries, and exact in a double
 
 void choose_time_step(const Scene& scene, bool force, Prepared& p) {
@@ -186,6 +194,7 @@ Prepared prepare(const Scene& scene, bool force_time_step) {
   Prepared p{build_world(scene, set), build_model(scene), {}, {}, {}, {}};
   check_restitution(scene, p.model);
   note_laws(scene, p);
+  check_energy(scene, p.world, p.model);
   check_shapes(scene, p);
   check_periodic(scene, p.world, p.model);
   check_bounds(scene, p.world);

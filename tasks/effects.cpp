@@ -51,6 +51,10 @@ StepAhead step_ahead(const World& w, const Model& m) {
   return ahead;
 }
 double impact_speed_of(const Model& m) { return m.solver.impact_speed.value_or(10 * norm(m.gravity) * m.time_step); }
+bool any_friction(const Model& m) {
+  return m.contact.tangential != TangentialLaw::none &&
+         std::any_of(m.pairs.values.begin(), m.pairs.values.end(), [](const PairCoefficients& p) { return p.friction != 0; });
+}
 double wall_speed(const World& w, const Model& m) {
   const Geometries& g = std::get<Geometries>(w);
   double fastest = 0;

@@ -63,6 +63,7 @@ inline constexpr double least_skin = 0.3;
 Margins margins_of(const World&, const Model&);
 StepAhead step_ahead(const World&, const Model&);
 double impact_speed_of(const Model&);              // v_imp [m/s]
+bool any_friction(const Model&);                   // a law, and some pair's coefficient is not 0: whether the effect is kept does not matter
 double wall_speed(const World&, const Model&);     // [m/s] greatest prescribed speed of a body's surface
 double cell_of(const World&, const Model&);
 double largest_radius(const World&, const Model&);    // [m] of the particles, and of those that may come

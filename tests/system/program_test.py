@@ -368,6 +368,8 @@ def case_contact_laws(program):
     assert len(hashes) == len(laws), hashes
     contains(read("out", "log.txt"), ["given, but not used by contact: {normal: linear, tangential: spring, rolling: none}: rolling_friction, damping_time"])
     run("walton_braun", "coulomb", "none", method="ndem", says=["are laws of smooth DEM"])
+    program.run(scene("laws"), "--set", "contact.normal=linear", "--set", "output.energy=true", "--overwrite", code=3,
+                says=["output.energy: the energy ledger knows", "normal: linear"])
     contains(program("graph", scene("laws"), "--set", "contact.normal=linear").stdout, ["normal: linear, tangential: spring, rolling: spring"])
     contains(program("explain", "contact.tangential").stdout, ["haff_werner", "default spring"])
     contains(program("models").stdout, ["kuwabara_kono", "walton_braun", "constant_torque", "rolling_viscosity", "N s/m"])

@@ -117,7 +117,7 @@ TEST_P(ChosenLaws, HaveTouchingContactsAndTheirHistory) {
   EXPECT_TRUE(s->effects().chosen);
   EXPECT_GT(count(c.force.data, Vec3{}), 20);
   EXPECT_EQ(s->effects().memory, !c.memory.data.empty());
-  if (s->effects().memory) EXPECT_GT(count(c.memory.data, ContactMemory{}), 20);
+  if (s->effects().memory) { EXPECT_GT(count(c.memory.data, ContactMemory{}), 20); }
 }
 
 TEST_P(ChosenLaws, AnySkinVectorPathAndReordering) {

@@ -97,6 +97,16 @@ TEST(RunCase, TheSectionIsChecked) {
   EXPECT_THROW(read_case(folder.write("plain.yaml", fall)), SceneError);
 }
 
+// In a direction that is not periodic a particle may be anywhere, also where another direction is periodic.
+TEST(RunCase, NegativePositionsBesideAPeriodicDirection) {
+  const std::string text = "check: {title: f, group: contact, source: s, expect: [{what: x, value: \"x(0) - 2 * y(0)\", expected: \"-0.3 - 2 * 0.2\", tolerance: 1e-12}]}\n"
+                           "end_time: 1 ms\nperiodic: {y: [0, 1]}\ngravity: [0, 0, 0]\n"
+                           "materials: [{name: glass, density: 2500, youngs_modulus: 1 MPa}]\n"
+                           "particles: [{list: [{radius: 0.01, position: [-0.3, 1.2, 0]}, {radius: 0.01, position: [0.4, 0.5, -7]}]}]\n";
+  const SceneFolder folder;
+  EXPECT_TRUE(run_case(read_case(folder.write("box.yaml", text))).passed());
+}
+
 TEST(RunCase, AStoppedCaseHasNoVerdict) {
   const SceneFolder folder;
   const CheckCase c = read_case(folder.write("fall.yaml", "check: {title: f, group: contact, source: s, expect: [{what: x, value: 1, expected: 1}]}\n" + fall));
