@@ -150,7 +150,7 @@ void write_rows(const Touch& t, const RowOptions& o, const SolverBody* bodies, c
 
 // A gap or an overlap that is nothing but rounding, in effective radii: spheres placed to touch do, without a force, and are as rigid as
 // a gap that has closed.
-constexpr double contact_slack = 1e-9;
+constexpr double contact_slack = 1e-11;
 
 }  // namespace
 

@@ -154,7 +154,7 @@ std::string solver_text(const Run& r) {
   if (unsolved > 0)
     text += fmt::format("; {} of {} steps stopped at {} sweeps above the tolerance {:g} (greatest residual {:.2g}) or the error tolerance {:g} "
                         "(greatest error {:.2g})", unsolved, r.sim.steps_done(), r.scene.solver.iterations, r.scene.solver.tolerance, r.sweeps.residual,
-                        error_tolerance_of(r.scene.solver, any_friction(r.sim.model())), r.sweeps.error);
+                        error_tolerance_of(r.sim.model()), r.sweeps.error);
   if (impacts_unsolved > 0)
     text += fmt::format("; the impact stage of {} steps stopped at {} sweeps above the tolerance (greatest residual {:.2g})", impacts_unsolved,
                         r.scene.solver.impact_iterations, r.sweeps.impact_residual);

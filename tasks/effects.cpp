@@ -51,9 +51,11 @@ StepAhead step_ahead(const World& w, const Model& m) {
   return ahead;
 }
 double impact_speed_of(const Model& m) { return m.solver.impact_speed.value_or(10 * norm(m.gravity) * m.time_step); }
-bool any_friction(const Model& m) {
-  return m.contact.tangential != TangentialLaw::none &&
-         std::any_of(m.pairs.values.begin(), m.pairs.values.end(), [](const PairCoefficients& p) { return p.friction != 0; });
+double error_tolerance_of(const Model& m) {                    // of the parameters, not of the effects: mu = 0 is as good as no friction
+  const auto& pairs = m.pairs.values;
+  const bool friction = m.contact.tangential != TangentialLaw::none &&
+                        std::any_of(pairs.begin(), pairs.end(), [](const PairCoefficients& k) { return k.friction > 0; });
+  return m.solver.error_tolerance.value_or(friction ? std::max(0.02, m.solver.tolerance) : m.solver.tolerance);
 }
 double wall_speed(const World& w, const Model& m) {
   const Geometries& g = std::get<Geometries>(w);

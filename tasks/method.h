@@ -11,7 +11,7 @@ struct SolverOptions {
   int iterations = 500;                            // most sweeps of the contact stage, >= 1
   int impact_iterations = 50;                      // and of the impact stage
   double tolerance = 1e-3;                         // a sweep that changes less than this part of all impulses is the last; 0: all sweeps
-  std::optional<double> error_tolerance;           // and leaves less than this part of them to be changed; empty: error_tolerance_of
+  std::optional<double> error_tolerance;           // and leaves less than this part of them to be changed; empty: see error_tolerance_of
   bool warm_start = true;
   double trusted_residual = 1e-6;                  // of a step, up to which the next starts from its impulses as they are
   double damping_steps = 2;                        // n_s >= 0 [1]: contacts relax within this many steps at the fastest
@@ -19,12 +19,5 @@ struct SolverOptions {
   bool impact_rolling = false;                     // rolling resistance acts in the impact stage too
   std::optional<double> separation_speed;          // [m/s] > 0 overlaps are not resolved faster; empty: as fast as they will
 };
-
-// What is left to be changed is reckoned from how fast the changes of the sweeps fall. Without friction it falls fast, and the forces are
-// unique: tolerance bounds their error. With friction they are not unique: PGS wanders for hundreds of sweeps, by less and less,
-// among forces that all but solve the rows; there the automatic bound only refuses what has hardly begun to converge.
-inline double error_tolerance_of(const SolverOptions& o, bool friction) {
-  return o.error_tolerance.value_or((friction ? 20 : 1) * o.tolerance);
-}
 
 }  // namespace skred

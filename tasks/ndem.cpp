@@ -29,7 +29,7 @@ std::vector<RowCoefficients> coefficients(const Model& m) {
 }
 
 template <bool impact, bool friction, bool rolling, bool limited> SweepOptions options(const Model& m, int most) {
-  const double error_tolerance = impact ? std::numeric_limits<double>::infinity() : error_tolerance_of(m.solver, any_friction(m));
+  const double error_tolerance = impact ? std::numeric_limits<double>::infinity() : error_tolerance_of(m);
   return {most, m.solver.tolerance, error_tolerance, m.solver.separation_speed.value_or(0), {impact, friction, rolling, limited, true},
           contact_sweep<SweepKind{impact, friction, rolling, limited, false}>(m.vector_path),
           contact_sweep<SweepKind{impact, friction, rolling, limited, true}>(m.vector_path)};

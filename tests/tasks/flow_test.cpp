@@ -56,7 +56,7 @@ void run(Simulation& s, int steps) {
 
 class BothMethods : public ::testing::TestWithParam<Method> {};
 INSTANTIATE_TEST_SUITE_P(Flow, BothMethods, ::testing::Values(Method::sdem, Method::ndem),
-                         [](const auto& info) { return info.param == Method::sdem ? "Smooth" : "Nonsmooth"; });
+                         [](const auto& given) { return given.param == Method::sdem ? "Smooth" : "Nonsmooth"; });
 
 // Far away, particles that touch nothing, of ids between the others' and around them; in the midst of the run they are taken out.
 TEST_P(BothMethods, RemovalLeavesTheOthersBitsAlone) {
@@ -84,7 +84,8 @@ TEST_P(BothMethods, RemovalLeavesTheOthersBitsAlone) {
   EXPECT_GT(measure(*removed).contacts + measure(*removed).body_contacts, 20u) << "nothing touches: nothing is tested";
 }
 
-// A sphere slides and rolls while others around it go: with its history lost it would not go on as before.
+// A sphere slides and rolls while others go: with its history lost it would not go on as before. With nonsmooth DEM those that go are in
+// the air: its sweeps end by the sum of all impulses, so that a contact more or less changes the number of them for all.
 TEST_P(BothMethods, ASlidingContactKeepsItsHistory) {
   Lab l(0.5, 0.5, 0.1);
   l.model.gravity = {0, 0, -9.81};
@@ -92,7 +93,7 @@ TEST_P(BothMethods, ASlidingContactKeepsItsHistory) {
   l.sphere({0, 0.1, 0.9999 * R}, {0.4, 0, 0}, {0, 30, 0});
   l.sphere({0, -0.1, 0.9999 * R});                                   // and two that lean against each other
   l.sphere({1.999 * R, -0.1, 0.9999 * R}, {-0.1, 0, 0});
-  for (int k = 0; k < 20; ++k) l.sphere({0.3, 0.02 * k, R});
+  for (int k = 0; k < 20; ++k) l.sphere({0.3, 0.02 * k, GetParam() == Method::sdem ? R : 0.1});
   l.body(PlaneShape{});
   l = with_method(l, GetParam());
   const auto kept = l.build();
@@ -308,6 +309,7 @@ TEST_P(BothMethods, AFallingCloudCrossesAnArea) {
   Lab l(0.18, 0, 0);
   for (int k = 0; k < 100; ++k) l.sphere({0.02 * (k % 10), 0.02 * (k / 10), 0.001 * k}, {0, 0, -0.1});
   l = with_method(l, GetParam());
+  if (GetParam() == Method::sdem) l.model.time_step = 2e-4;
   // Of the hundred, those with x up to 0.09 cross the rectangle, those within 0.05 of a corner the disc; all cross the whole plane.
   const double infinite = std::numeric_limits<double>::infinity();
   l.model.areas = {Disc{{0, 0, -0.010502}, {0, 0, -1}, infinite}, Rectangle{{0.04, 0.09, -0.010502}, {0, 0, 1}, {1, 0, 0}, 0.1, 0.3},
