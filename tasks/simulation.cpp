@@ -47,7 +47,10 @@ Simulation::Simulation(World world, Model model, int threads)
   start_at_zero(std::get<Removed>(world_), model_.removers.size());
   start_at_zero(std::get<Created>(world_), model_.inflows.size());
   start_at_zero(std::get<Crossed>(world_), model_.areas.size());
-  std::get<Incidence>(world_).first.data.assign(n + 1, 0);
+  Incidence& in = std::get<Incidence>(world_);                 // nothing is listed where a start is no number: no contacts then
+  in.first.data.assign(n + 1, 0);
+  in.begin_lower.data.assign(n, 0);
+  in.end_lower.data.assign(n, 0);
   std::get<BodyIncidence>(world_).first.data.assign(n + 1, 0);
 
   Bodies& b = std::get<Bodies>(world_);

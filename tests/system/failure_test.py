@@ -280,6 +280,17 @@ def case_nonsmooth_beyond_numbers(program):
                   says=["particle 0 at (", "left the bounds"])
 
 
+def case_contact_beyond_numbers(program):
+    """Spheres so light that 1/m overflows: nonsmooth DEM names the contact; smooth DEM the particle, for it divides before it looks."""
+    light = ["materials.glass.density=1e-305", LIST % "{radius: 1 cm, position: [0, 0, 1 cm]}, {radius: 1 cm, position: [0, 0, 3 cm]}"]
+    program.small(*light, options=["--method", "ndem", "--time-step", "1 ms", "--quiet"], code=4,
+                  says=["error: t = 0.001 s, step 1, contact of particle 0 (radius 0.01 m, mass 4.18879e-311 kg) and particle 1 (radius 0.01 m",
+                        "not a number; likely causes: masses, radii"])
+    assert summary()["outcome"] == "numerical failure"
+    program.small(*light, options=["--time-step", "1 ms", "--force", "--quiet", "--overwrite"], code=4,
+                  says=["error: t = 0 s, step 0, particle 0", "not a number; likely causes: masses, radii"])
+
+
 def case_body_gone_wild(program):
     block = "bodies=[{name: block, motion: dynamic, mass: 1, position: [0, 0, 0.5], %s, geometries: [{sphere: {radius: 1 cm}}]}]"
     program.small(block % "angular_velocity: [1e200, 1e200, 0]", "expected_speed=1", code=4, says=["t = 0 s", "body 'block'", "not a number"])

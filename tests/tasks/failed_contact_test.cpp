@@ -70,6 +70,19 @@ TEST(FailedContact, OfAMassWithoutAnInverseIsNamed) {
   }
 }
 
+// Smooth DEM divides by the mass before it looks for contacts: there is none to name, but the particle.
+TEST(FailedContact, IsNoneWhereAStartIsNoNumber) {
+  Lab lab(0.5, 0.5, 0.1);
+  lab.sphere({0, 0, 0.999 * R}, {}, {}, R, 1e-310);
+  lab.sphere({0, 0, 2.997 * R}, {}, {}, R, 1);
+  lab.body(PlaneShape{});
+  auto s = lab.build();
+  s->start();
+  EXPECT_EQ(trouble(*s), Trouble::not_finite);
+  EXPECT_EQ(std::get<Search>(s->world()).culprit.data[0], 0u);
+  EXPECT_FALSE(failed_contact(s->world()));
+}
+
 // Smooth DEM sees it in the step after, from where the particles went.
 TEST(FailedContact, OfAForceThatOverflowsIsNamedInSmoothDem) {
   for (const bool at_wall : {false, true}) {
