@@ -255,7 +255,7 @@ const Section<SolverKeys>& solver_keys() {
                 "A sweep that changes less than this part of the sum of all impulses is the last; 0: all sweeps are made."),
       nested<S>("error_tolerance", Or<Number>{"auto", {"1", positive}}, [](auto& s) -> auto& { return s.options.error_tolerance; },
                 "Nor is it the last while more than this part is left to be changed, reckoned from how fast the changes fall; auto: the tolerance, "
-                "with friction 0.02. With friction forces are not unique, and less can take hundreds of sweeps."),
+                "with friction 0.1. With friction forces are not unique, and less can take hundreds of sweeps."),
       nested<S>("warm_start", Flag{}, [](auto& s) -> auto& { return s.options.warm_start; }, "Start from the impulses of the last step."),
       nested<S>("damping_steps", Number{"1", non_negative}, [](auto& s) -> auto& { return s.options.damping_steps; },
                 "Contacts relax within this many steps, or slower if their restitution says so."),

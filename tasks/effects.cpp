@@ -55,7 +55,7 @@ double error_tolerance_of(const Model& m) {                    // of the paramet
   const auto& pairs = m.pairs.values;
   const bool friction = m.contact.tangential != TangentialLaw::none &&
                         std::any_of(pairs.begin(), pairs.end(), [](const PairCoefficients& k) { return k.friction > 0; });
-  return m.solver.error_tolerance.value_or(friction ? std::max(0.02, m.solver.tolerance) : m.solver.tolerance);
+  return m.solver.error_tolerance.value_or(friction ? std::max(0.1, m.solver.tolerance) : m.solver.tolerance);
 }
 double wall_speed(const World& w, const Model& m) {
   const Geometries& g = std::get<Geometries>(w);

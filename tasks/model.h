@@ -65,7 +65,7 @@ StepAhead step_ahead(const World&, const Model&);
 double impact_speed_of(const Model&);              // v_imp [m/s]
 // What is left to be changed is reckoned from how fast the changes of the sweeps fall. Where no pair has friction it falls fast, and forces
 // are unique: the tolerance bounds their error. With friction they are not unique: PGS wanders for hundreds of sweeps, by less and
-// less, among forces that all but solve the rows; there 2 % only refuses what has hardly begun to converge.
+// less, among forces that all but solve the rows; there 10 % only refuses what has hardly begun to converge.
 double error_tolerance_of(const Model&);
 double wall_speed(const World&, const Model&);     // [m/s] greatest prescribed speed of a body's surface
 double cell_of(const World&, const Model&);
