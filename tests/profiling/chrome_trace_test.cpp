@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include "engine/io/temporary_folder.h"
 #include "tests/profiling/fake_run.h"
 
 using namespace skred;
@@ -150,11 +151,10 @@ TEST(ChromeTrace, NothingTracedIsStillAFile) {
 
 TEST(ChromeTrace, FilesAndTheirErrors) {
   Timeline t(1);
-  const auto path = std::filesystem::temp_directory_path() / "skred_chrome_trace_test.json";
-  write_chrome_trace(path.string(), t, info);
-  std::ifstream file(path);
+  const TemporaryFolder folder;
+  write_chrome_trace(folder / "trace.json", t, info);
+  std::ifstream file(folder / "trace.json");
   EXPECT_TRUE(json::parse(file).contains("traceEvents"));
-  std::filesystem::remove(path);
   try {
     write_chrome_trace("/no/such/folder/trace.json", t, info);
     FAIL();
