@@ -42,6 +42,30 @@ template <class R, class Where> QuadT<R> load_quads(const Where& where) {
   }
 }
 
+// x y z 0 of each lane.
+[[gnu::always_inline]] inline void as_rows(const Four& x, const Four& y, const Four& z, Four* out) {
+  const Four none{};
+  const Four xy = __builtin_shufflevector(x, y, 0, 4, 2, 6), xy2 = __builtin_shufflevector(x, y, 1, 5, 3, 7);
+  const Four z0 = __builtin_shufflevector(z, none, 0, 4, 2, 6), z2 = __builtin_shufflevector(z, none, 1, 5, 3, 7);
+  out[0] = __builtin_shufflevector(xy, z0, 0, 1, 4, 5);
+  out[1] = __builtin_shufflevector(xy2, z2, 0, 1, 4, 5);
+  out[2] = __builtin_shufflevector(xy, z0, 2, 3, 6, 7);
+  out[3] = __builtin_shufflevector(xy2, z2, 2, 3, 6, 7);
+}
+template <class R> void as_rows(const Vec3T<R>& v, Four* out) {
+  if constexpr (lanes<R> == 1) {
+    *out = Four{v.x, v.y, v.z, 0};
+  } else if constexpr (lanes<R> == 2) {
+    for (int k = 0; k < 2; ++k) out[k] = Four{v.x[k], v.y[k], v.z[k], 0};
+  } else if constexpr (lanes<R> == 4) {
+    as_rows(Four(v.x), Four(v.y), Four(v.z), out);
+  } else {
+    const Eight x(v.x), y(v.y), z(v.z);
+    as_rows(__builtin_shufflevector(x, x, 0, 1, 2, 3), __builtin_shufflevector(y, y, 0, 1, 2, 3), __builtin_shufflevector(z, z, 0, 1, 2, 3), out);
+    as_rows(__builtin_shufflevector(x, x, 4, 5, 6, 7), __builtin_shufflevector(y, y, 4, 5, 6, 7), __builtin_shufflevector(z, z, 4, 5, 6, 7), out + 4);
+  }
+}
+
 // Writes them to `where(k)`, the last lane first: where two lanes name the same place, the first of them is kept.
 template <class R, class Where> void store_quads(const QuadT<R>& q, const Where& where) {
   if constexpr (lanes<R> == 1) {

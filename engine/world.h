@@ -48,20 +48,15 @@ struct Particles {
 struct Neighbours {
   Column<Index> row{"neighbour", "1"};                             // row of Particles
   Column<Index> id{"neighbour_id", "1"};
-  Column<Index> contact{"contact_of_neighbour", "1"};              // row of Contacts, or no_index if the pair is not near enough
   std::size_t rows() const { return row.data.size(); }
-  static constexpr auto columns() { return std::tuple{&Neighbours::row, &Neighbours::id, &Neighbours::contact}; }
+  static constexpr auto columns() { return std::tuple{&Neighbours::row, &Neighbours::id}; }
 };
 
-// Where each particle finds its neighbours. Row p of `first` and `first_lower` for particle p, and one more at the end:
-// neighbours [first[p], first[p+1]) belong to p; lower[first_lower[p] .. first_lower[p+1]) are rows of Neighbours in which p is
-// the neighbour, by ascending id of the owner.
+// Neighbours [first[p], first[p+1]) belong to particle p. One row per particle and one more at the end.
 struct Neighbourhood {
   Column<Index> first{"first_neighbour", "1"};
-  Column<Index> first_lower{"first_lower_neighbour", "1"};
-  Column<Index> lower{"lower_neighbour", "1"};
   std::size_t rows() const { return first.data.size(); }
-  static constexpr auto columns() { return std::tuple{&Neighbourhood::first, &Neighbourhood::first_lower, &Neighbourhood::lower}; }
+  static constexpr auto columns() { return std::tuple{&Neighbourhood::first}; }
 };
 
 // History of a contact whose law is chosen at run time (kernels/chosen_law.h); what its law does not remember stays zero.
@@ -77,16 +72,15 @@ struct ContactMemory {
 struct Contacts {
   Column<Index>  i{"i", "1"}, j{"j", "1"};                         // rows of Particles
   Column<Index>  partner{"partner", "1"};                          // id[j]
+  Column<Index>  sum_of_j{"sum_of_j", "1"};                        // what acts on j: its place in the block of i, or contact_block + place in the block's halo
   Column<Vec3>   force{"contact_force", "N"};                      // on i, -force on j; zero where the pair does not touch
-  Column<Vec3>   torque{"contact_torque", "N m"};                  // of the force about the centre of i; about that of j, it is
-  Column<double> arm_ratio{"contact_arm_ratio", "1"};              //   arm_ratio times that (empty where all radii are equal: 1)
   Column<Vec3>   spring{"tangential_spring", "m"};                 // history: displacement in the tangent plane
   Column<Vec3>   rolling{"rolling_moment", "N m"};                 // on i, the opposite on j; history where it is elastic
   Column<ContactMemory> memory{"contact_memory", "m, N, N m"};     // history
   std::size_t rows() const { return i.data.size(); }
   static constexpr auto columns() {
-    return std::tuple{&Contacts::i, &Contacts::j, &Contacts::partner, &Contacts::force, &Contacts::torque,
-                      &Contacts::arm_ratio, &Contacts::spring, &Contacts::rolling, &Contacts::memory};
+    return std::tuple{&Contacts::i, &Contacts::j, &Contacts::partner, &Contacts::sum_of_j, &Contacts::force,
+                      &Contacts::spring, &Contacts::rolling, &Contacts::memory};
   }
 };
 
@@ -104,20 +98,40 @@ struct PreviousContacts {
   }
 };
 
-// Where each particle finds its contacts. Row p of `first` for particle p, and one more at the end: contacts [first[p], first[p+1])
-// have p as i; lower[begin_lower[p] .. end_lower[p]) are those with p as j, by ascending id of i. These follow each other without
-// gaps for all particles of a block of rows [k incidence_block, (k + 1) incidence_block).
-// Read one after the other - lower ids first - they give every particle its partners by ascending id: the order of its sums.
-inline constexpr std::size_t incidence_block = 256;
+// Contacts [first[p], first[p+1]) have particle p as i. One row per particle and one more at the end.
 struct Incidence {
   Column<Index> first{"first_contact", "1"};
-  Column<Index> begin_lower{"begin_lower_contacts", "1"}, end_lower{"end_lower_contacts", "1"};
-  Column<Index> lower{"lower_contact", "1"};
-  Column<Index> lower_of{"particle_of_lower_contact", "1"};        // the p of each entry of `lower`
   std::size_t rows() const { return first.data.size(); }
-  static constexpr auto columns() {
-    return std::tuple{&Incidence::first, &Incidence::begin_lower, &Incidence::end_lower, &Incidence::lower, &Incidence::lower_of};
-  }
+  static constexpr auto columns() { return std::tuple{&Incidence::first}; }
+};
+
+// Smooth DEM adds up the forces of contacts while it calculates them, block by block of particles: rows [k, k + 1) times this. A
+// block's contacts are those whose i lies in it. Fixed, so that sums have the same bits for any number of threads.
+inline constexpr std::size_t contact_block = 512;
+inline constexpr std::size_t blocks_of(std::size_t particles) { return (particles + contact_block - 1) / contact_block; }
+
+// Row p of particle p: what the contacts of its block do to it. Behind these the halo: a row for each contact whose j lies in
+// another block, with what it does to j.
+struct ContactSums {
+  Column<Vec3> force{"sum_of_contact_forces", "N"};
+  Column<Vec3> torque{"sum_of_contact_torques", "N m"};            // about the particle's centre
+  std::size_t rows() const { return force.data.size(); }
+  static constexpr auto columns() { return std::tuple{&ContactSums::force, &ContactSums::torque}; }
+};
+
+// The rows of the halo, counted from 0, in the order of their contacts.
+struct Halo {
+  Column<Index> particle{"halo_particle", "1"};                    // row of Particles: the j
+  Column<Index> order{"halo_order", "1"};                          // rows of the halo by the block of their j, then ascending
+  std::size_t rows() const { return particle.data.size(); }
+  static constexpr auto columns() { return std::tuple{&Halo::particle, &Halo::order}; }
+};
+// One row per block and one more: rows [from[k], from[k+1]) of the halo are of contacts of block k, and order[to[k] .. to[k+1]) are
+// those of contacts of other blocks with a particle of block k.
+struct HaloIncidence {
+  Column<Index> from{"first_halo_row", "1"}, to{"first_in_halo_order", "1"};
+  std::size_t rows() const { return from.data.size(); }
+  static constexpr auto columns() { return std::tuple{&HaloIncidence::from, &HaloIncidence::to}; }
 };
 
 // Places where a particle may touch a geometry of a rigid body before the next search; sorted by particle row, geometry,
@@ -387,7 +401,8 @@ struct Population {
   static constexpr auto columns() { return std::tuple{&Population::next_id}; }
 };
 
-using World = std::tuple<Particles, Neighbours, Neighbourhood, Contacts, PreviousContacts, Incidence, BodyContacts, PreviousBodyContacts, BodyIncidence, Triangles,
+using World = std::tuple<Particles, Neighbours, Neighbourhood, Contacts, PreviousContacts, Incidence, ContactSums, Halo,
+                         HaloIncidence, BodyContacts, PreviousBodyContacts, BodyIncidence, Triangles,
                          Bodies, Geometries, RigidPairs, RigidContacts, CellGrid, SolverBodies, ContactBlocks, HubContacts, Solver, EnergyLedger, Clock, Search,
                          Removed, Created, Crossed, Population>;
 

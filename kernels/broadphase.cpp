@@ -49,18 +49,11 @@ void sort_into_cells(const Parallel& parallel, const CellLayout& layout, std::sp
   });
 }
 
-// What a chunk of particles finds: for each particle first its neighbours of a lower id, then those of a higher one.
+// What a chunk of particles finds: the neighbours of a higher id.
 struct Found {
-  std::vector<Index> lower, higher;                          // rows
-  std::vector<Index> lower_end, higher_end;                  // by particle of the chunk
+  std::vector<Index> row;
+  std::vector<Index> end;                                    // by particle of the chunk
 };
-
-// Where the neighbours of p are in the list of its owner q.
-Index entry_of(const Neighbourhood& of, const Neighbours& list, Index q, Index p) {
-  Index entry = of.first.data[q];
-  while (list.row.data[entry] != p) ++entry;
-  return entry;
-}
 
 }  // namespace
 
@@ -83,15 +76,9 @@ void Broadphase<Space>::operator()(Parallel parallel, Read<&Search::due> due, Re
   std::vector<Found> found((n + chunk - 1) / chunk);
   parallel.chunks(n, chunk, [&](std::size_t k, std::size_t begin, std::size_t end) {
     Found& f = found[k];
-    f.lower_end.reserve(end - begin);
-    f.higher_end.reserve(end - begin);
+    f.end.reserve(end - begin);
     std::vector<Index> near;                                 // places in the grid's order
-    std::vector<Key> lower, higher;
-    const auto append = [](std::vector<Key>& keys, Key* keys_end, std::vector<Index>& rows) {
-      sort_short(keys.data(), keys_end);
-      for (const Key* key = keys.data(); key < keys_end; ++key) rows.push_back(row_of(*key));
-      return static_cast<Index>(rows.size());
-    };
+    std::vector<Key> keys;
     for (std::size_t p = begin; p < end; ++p) {
       const Vec3 x = position[p];
       const double mine = radius[p] + margin[p];
@@ -117,16 +104,16 @@ void Broadphase<Space>::operator()(Parallel parallel, Read<&Search::due> due, Re
         }
       if (near.size() <= candidates) near.resize(2 * candidates + 1);
       const std::size_t count = loop(surroundings, x, mine, around.data(), around_end, near.data());
-      if (lower.size() < count) lower.resize(2 * count), higher.resize(2 * count);
-      Key *l = lower.data(), *h = higher.data();
+      if (keys.size() < count) keys.resize(2 * count);
+      Key* end_of_keys = keys.data();
       for (std::size_t s = 0; s < count; ++s) {
         const Index q = order[near[s]];
-        *l = *h = key(id[q], q);
-        l += id[q] < id[p];
-        h += id[q] > id[p];
+        *end_of_keys = key(id[q], q);
+        end_of_keys += id[q] > id[p];
       }
-      f.lower_end.push_back(append(lower, l, f.lower));
-      f.higher_end.push_back(append(higher, h, f.higher));
+      sort_short(keys.data(), end_of_keys);
+      for (const Key* found_key = keys.data(); found_key < end_of_keys; ++found_key) f.row.push_back(row_of(*found_key));
+      f.end.push_back(static_cast<Index>(f.row.size()));
     }
   });
 
@@ -134,33 +121,18 @@ void Broadphase<Space>::operator()(Parallel parallel, Read<&Search::due> due, Re
   const auto release = [](auto& column) { std::exchange(column.data, {}); };
   release(grid->cell), release(grid->order), release(grid->position), release(grid->reach);
 
-  std::vector<Index> offset(found.size() + 1, 0), lower_offset(found.size() + 1, 0);
-  for (std::size_t k = 0; k < found.size(); ++k) {
-    offset[k + 1] = offset[k] + static_cast<Index>(found[k].higher.size());
-    lower_offset[k + 1] = lower_offset[k] + static_cast<Index>(found[k].lower.size());
-  }
-  for (auto* c : {&neighbours->row, &neighbours->id, &neighbours->contact}) resize_for_overwrite(c->data, offset.back());
-  resize_for_overwrite(neighbourhood->lower.data, offset.back());
+  std::vector<Index> offset(found.size() + 1, 0);
+  for (std::size_t k = 0; k < found.size(); ++k) offset[k + 1] = offset[k] + static_cast<Index>(found[k].row.size());
+  for (auto* c : {&neighbours->row, &neighbours->id}) resize_for_overwrite(c->data, offset.back());
   resize_for_overwrite(neighbourhood->first.data, n + 1);
-  resize_for_overwrite(neighbourhood->first_lower.data, n + 1);
-  neighbourhood->first.data[n] = neighbourhood->first_lower.data[n] = offset.back();
+  neighbourhood->first.data[n] = offset.back();
   parallel.chunks(n, chunk, [&](std::size_t k, std::size_t begin, std::size_t end) {
     const Found& f = found[k];
-    for (std::size_t p = begin; p < end; ++p) {
-      neighbourhood->first.data[p] = offset[k] + (p > begin ? f.higher_end[p - begin - 1] : 0);
-      neighbourhood->first_lower.data[p] = lower_offset[k] + (p > begin ? f.lower_end[p - begin - 1] : 0);
+    for (std::size_t p = begin; p < end; ++p) neighbourhood->first.data[p] = offset[k] + (p > begin ? f.end[p - begin - 1] : 0);
+    for (std::size_t e = 0; e < f.row.size(); ++e) {
+      neighbours->row.data[offset[k] + e] = f.row[e];
+      neighbours->id.data[offset[k] + e] = id[f.row[e]];
     }
-    for (std::size_t e = 0; e < f.higher.size(); ++e) {
-      neighbours->row.data[offset[k] + e] = f.higher[e];
-      neighbours->id.data[offset[k] + e] = id[f.higher[e]];
-    }
-  });
-  parallel.chunks(n, chunk, [&](std::size_t k, std::size_t begin, std::size_t end) {
-    const Found& f = found[k];
-    std::size_t e = 0;
-    for (std::size_t p = begin; p < end; ++p)
-      for (; e < f.lower_end[p - begin]; ++e)
-        neighbourhood->lower.data[lower_offset[k] + e] = entry_of(*neighbourhood.table, *neighbours.table, f.lower[e], static_cast<Index>(p));
   });
 }
 

@@ -1,8 +1,7 @@
 // kernels/broadphase.h - the pairs of particles that may touch before the next search.
 //
 // When a search is due: particles are sorted into the cells of a grid, and each looks through its 27 cells for neighbours within
-// the margins of both. Each pair is listed once, with the particle of the lower id, by ascending id of the other; and each
-// particle also gets the entries in which it is the other.
+// the margins of both. Each pair is listed once, with the particle of the lower id, by ascending id of the other.
 #pragma once
 #include "engine/access.h"
 #include "engine/periodic.h"

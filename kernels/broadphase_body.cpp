@@ -113,9 +113,9 @@ void BroadphaseBody::operator()(Parallel parallel, Read<&Search::due> due, Read<
   c.curvature.data.assign(total, 0.0);
   resize_for_overwrite(c.force.data, total);
   resize_for_overwrite(c.torque.data, columns.torque ? total : 0);
-  resize_for_overwrite(c.rolling_torque.data, columns.rolling ? total : 0);
+  resize_for_overwrite(c.rolling_torque.data, columns.rolling_torque ? total : 0);
   resize_for_overwrite(c.spring.data, columns.spring ? total : 0);
-  resize_for_overwrite(c.rolling.data, columns.rolling && columns.rolling_is_history ? total : 0);
+  resize_for_overwrite(c.rolling.data, columns.rolling ? total : 0);
   resize_for_overwrite(c.memory.data, columns.memory ? total : 0);
   resize_for_overwrite(triangles->triangle.data, triangle_offset.back());
   parallel(found.size(), 16, [&](std::size_t begin, std::size_t end) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <vector>
+#include "kernels/reorder.h"
 
 namespace skred {
 
@@ -36,7 +37,7 @@ double surface_moved(const Pose& now, const Pose& then, double lever) {
 }  // namespace
 
 template <class Space>
-void CheckMotion<Space>::operator()(Parallel parallel, Read<&Particles::id> id, Read<&Particles::position> position,
+void CheckMotion<Space>::operator()(Parallel parallel, Read<&Clock::step> step, Read<&Particles::id> id, Read<&Particles::position> position,
     Read<&Particles::velocity> velocity, Read<&Particles::radius> radius, Update<&Particles::searched> searched,
     Update<&Particles::search_margin> search_margin, Update<&Particles::listed> listed, Update<&Particles::list_margin> list_margin,
     Read<&Bodies::motion> motion, Read<&Bodies::pose> pose, Read<&Bodies::velocity> wall_velocity,
@@ -116,13 +117,13 @@ void CheckMotion<Space>::operator()(Parallel parallel, Read<&Particles::id> id, 
   outside[0] = all.outside;
 
   const bool sound = all.trouble != Trouble::not_finite;     // else there is nowhere to look for partners; the run ends here
-  due[0] = sound && (first || rows_changed[0] || walls_moved > margins.walls);
+  due[0] = sound && (first || rows_changed[0] || walls_moved > margins.walls || reorders(step[0], reorder_every));
   list_due[0] = sound && (due[0] || all.left_margin || far);
   if (!list_due[0]) return;
 
   const auto margin = [&](std::size_t p, double steps, double rest) {
-    const double step = time_step * norm(velocity[p]), needed = !ahead.watched ? 0 : far ? farthest_step : step + ahead.fall;
-    return std::max(needed, std::min(rest + steps * step, margins.largest));
+    const double way = time_step * norm(velocity[p]), needed = !ahead.watched ? 0 : far ? farthest_step : way + ahead.fall;
+    return std::max(needed, std::min(rest + steps * way, margins.largest));
   };
   std::vector<char> leaves(chunks, 0);
   parallel.chunks(n, chunk, [&](std::size_t k, std::size_t begin, std::size_t end) {

@@ -36,8 +36,9 @@ template <class Space> struct CheckMotion {
   Bounds bounds;                 // [m]
   bool stop_outside;             // a particle outside is trouble
   StepAhead ahead;
+  int reorder_every;             // steps: then a search is due too (kernels/reorder.h)
 
-  void operator()(Parallel parallel, Read<&Particles::id> id, Read<&Particles::position> position, Read<&Particles::velocity> velocity,
+  void operator()(Parallel parallel, Read<&Clock::step> step, Read<&Particles::id> id, Read<&Particles::position> position, Read<&Particles::velocity> velocity,
                   Read<&Particles::radius> radius, Update<&Particles::searched> searched, Update<&Particles::search_margin> search_margin,
                   Update<&Particles::listed> listed, Update<&Particles::list_margin> list_margin, Read<&Bodies::motion> motion,
                   Read<&Bodies::pose> pose, Read<&Bodies::velocity> wall_velocity, Read<&Bodies::angular_velocity> wall_spin,

@@ -9,11 +9,11 @@ namespace skred {
 // In place of the one in kernels/force_calculation_loop.h: one contact, which takes more to look at, and one column of history.
 template <bool tangential, bool rolling, bool remembers, class Space, class Lanes>
 void apply_law(const PairForces<ChosenLaw<tangential, rolling, remembers>, ChosenParticles, Space>& pairs, const PairState<double>& pair,
-               const PairColumns& c, const Lanes& lanes) {
+               const PairColumns& c, const Lanes& lanes, const BlockSums& sums) {
   using Law = ChosenLaw<tangential, rolling, remembers>;
   const std::size_t row = lanes[0];
   ContactForce<double> f;                                    // not touching: no force, and the contact forgets
-  Vec3 torque;
+  Vec3 torque_i, torque_j;
   ContactMemory memory;
   if (pair.contact.overlap > 0) {
     const Index i = c.i[row], j = c.j[row];
@@ -23,16 +23,15 @@ void apply_law(const PairForces<ChosenLaw<tangential, rolling, remembers>, Chose
     if constexpr (rolling) contact.rolling_slip = in_tangent_plane(radius_i * c.spin[i] - radius_j * c.spin[j], contact.normal);
     if constexpr (remembers) memory = c.memory[row];
     f = evaluate(pairs.law, contact, pairs.kinds.coefficients[c.material[i] * pairs.kinds.materials + c.material[j]], pairs.time_step, memory);
-    if constexpr (Law::rotates) torque = -pair.arm_i * f.couple;
+    if constexpr (Law::rotates) torque_i = -pair.arm_i * f.couple, torque_j = -pair.arm_j * f.couple;
   }
   c.force[row] = f.force;
-  if constexpr (Law::rotates) c.torque[row] = torque, c.arm_ratio[row] = pair.arm_j / pair.arm_i;
-  if constexpr (rolling) c.rolling[row] = f.rolling;
   if constexpr (remembers) c.memory[row] = memory;
+  add_to_sums<Law>(f.force, torque_i, torque_j, f.rolling, c, lanes, sums);
 }
 
 #define SKRED_INSTANTIATE(...) \
-  template void PairForces<__VA_ARGS__>::run<VectorPath::scalar>(const PairForces&, const PairColumns&, std::size_t, std::size_t);
+  template void PairForces<__VA_ARGS__>::run<VectorPath::scalar>(const PairForces&, const PairColumns&, std::size_t, std::size_t, const BlockSums&);
 #define SKRED_INSTANTIATE_LAW(LAW) SKRED_INSTANTIATE(LAW, ChosenParticles, OpenSpace) SKRED_INSTANTIATE(LAW, ChosenParticles, PeriodicSpace)
 
 SKRED_FOR_EACH_CHOSEN_LAW(SKRED_INSTANTIATE_LAW)

@@ -11,9 +11,9 @@ namespace skred {
 
 // Which columns of the contacts the laws need.
 struct ContactColumns {
-  bool torque = false, spring = false, rolling = false, arm_ratio = false;
-  bool rolling_is_history = true;      // false: the moment of this step only
-  bool memory = false;
+  bool sums = false;                   // pairs: sums of forces, of torques too where there are any
+  bool torque = false, rolling_torque = false;
+  bool spring = false, rolling = false, memory = false;   // history
 };
 
 template <class Space> struct ContactListing {
@@ -24,9 +24,8 @@ template <class Space> struct ContactListing {
 
   void operator()(Parallel parallel, Read<&Search::list_due> due, Read<&Particles::position> position,
                   Read<&Particles::radius> radius, Read<&Particles::list_margin> margin, Read<&Neighbourhood::first> first,
-                  Read<&Neighbourhood::first_lower> first_lower, Read<&Neighbourhood::lower> lower, Read<&Neighbours::row> row,
-                  Read<&Neighbours::id> id, Update<&Neighbours::contact> contact, Resize<Contacts> contacts,
-                  Resize<PreviousContacts> previous, Resize<Incidence> incidence) const;
+                  Read<&Neighbours::row> row, Read<&Neighbours::id> id, Resize<Contacts> contacts, Resize<PreviousContacts> previous,
+                  Resize<Incidence> incidence, Resize<ContactSums> sums, Resize<Halo> halo, Resize<HaloIncidence> of_halo) const;
 };
 
 extern template struct ContactListing<OpenSpace>;

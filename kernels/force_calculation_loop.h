@@ -3,7 +3,7 @@
 // The number type R is double, or a pack of doubles: then one turn of a loop computes as many contacts as R is wide. Lanes that
 // do not touch compute numbers without meaning, which the last lines replace by zeros.
 #pragma once
-#include "engine/pack.h"
+#include "engine/pack_quads.h"
 #include "kernels/force_calculation_particle_particle.h"
 
 namespace skred {
@@ -65,8 +65,28 @@ void look_at(const Pairs& pairs, const PairColumns& c, const Lanes& row, PairSta
   }
 }
 
+// Adds what contacts do to the sums of their particles: the force, its torque about either centre, and the rolling moment on i.
+template <class Law, class R, class Lanes>
+void add_to_sums(const Vec3T<R>& force, const Vec3T<R>& torque_i, const Vec3T<R>& torque_j, const Vec3T<R>& rolling, const PairColumns& c, const Lanes& row,
+                 const BlockSums& sums) {
+  constexpr std::size_t width = lanes<R>;
+  Four f[width], t_i[width], t_j[width];
+  as_rows(force, f);
+  if constexpr (Law::has_rolling) as_rows(torque_i + rolling, t_i), as_rows(torque_j - rolling, t_j);
+  else if constexpr (Law::rotates) as_rows(torque_i, t_i), as_rows(torque_j, t_j);
+  for (std::size_t k = 0; k < width; ++k) {                  // one after the other: several may be contacts of one particle
+    if (int(k) == row.count) break;
+    PairSum& on_i = sums.sum[c.i[row[k]] - sums.first_particle];
+    on_i.force += f[k];
+    if constexpr (Law::rotates) on_i.torque += t_i[k];
+    PairSum& on_j = sums.sum[c.sum_of_j[row[k]]];
+    on_j.force -= f[k];
+    if constexpr (Law::rotates) on_j.torque += t_j[k];
+  }
+}
+
 template <class R, class Pairs, class Lanes>
-void apply_law(const Pairs& pairs, const PairState<R>& pair, const PairColumns& c, const Lanes& row) {
+void apply_law(const Pairs& pairs, const PairState<R>& pair, const PairColumns& c, const Lanes& row, const BlockSums& sums) {
   using Law = typename Pairs::Law;
   Vec3T<R> spring, rolling;
   if constexpr (Law::has_tangential) spring = load<R>(c.spring, row);
@@ -76,16 +96,19 @@ void apply_law(const Pairs& pairs, const PairState<R>& pair, const PairColumns& 
 
   const auto touching = pair.contact.overlap > R(0);
   const Vec3T<R> none{R(0), R(0), R(0)};                     // not touching: no force, and the contact forgets
-  store(select(touching, f.force, none), c.force, row);
-  if constexpr (Law::rotates) store(select(touching, -pair.arm_i * f.couple, none), c.torque, row);
-  if constexpr (Law::rotates && !Pairs::Kinds::alike) store(pair.arm_j / pair.arm_i, c.arm_ratio, row);
+  const Vec3T<R> force = select(touching, f.force, none);
+  store(force, c.force, row);
   if constexpr (Law::has_tangential) store(select(touching, spring, none), c.spring, row);
-  if constexpr (Law::has_rolling) store(select(touching, rolling, none), c.rolling, row);
+  if constexpr (Law::has_rolling) store(rolling = select(touching, rolling, none), c.rolling, row);
+  Vec3T<R> torque_i, torque_j;
+  if constexpr (Law::rotates) torque_i = select(touching, -pair.arm_i * f.couple, none), torque_j = select(touching, -pair.arm_j * f.couple, none);
+  add_to_sums<Law>(force, torque_i, torque_j, rolling, c, row, sums);
 }
 
 // In two passes over a few packs at a time: roots and divisions wait long for each other, and a processor fills the waiting with
 // work on the next packs only if it is not far ahead. Flat: a call would pass packs through memory.
-template <class R, class Pairs> [[gnu::flatten]] void calculate_forces(const Pairs& pairs, const PairColumns& c, std::size_t first, std::size_t last) {
+template <class R, class Pairs> [[gnu::flatten]] void calculate_forces(const Pairs& pairs, const PairColumns& c, std::size_t first, std::size_t last,
+                                                                     const BlockSums& sums) {
   constexpr std::size_t packs = 4, width = lanes<R>;
   PairState<R> state[packs];
   const auto look = [&](const auto& row, PairState<R>& out) {
@@ -99,18 +122,18 @@ template <class R, class Pairs> [[gnu::flatten]] void calculate_forces(const Pai
   };
   for (; first + packs * width <= last; first += packs * width) {
     for (std::size_t k = 0; k < packs; ++k) look(FullRange<R>{first + k * width}, state[k]);
-    for (std::size_t k = 0; k < packs; ++k) apply_law(pairs, state[k], c, FullRange<R>{first + k * width});
+    for (std::size_t k = 0; k < packs; ++k) apply_law(pairs, state[k], c, FullRange<R>{first + k * width}, sums);
   }
   for (; first < last; first += width) {
     const PartOfRange<R> row(first, last);
     look(row, state[0]);
-    apply_law(pairs, state[0], c, row);
+    apply_law(pairs, state[0], c, row, sums);
   }
 }
 
 template <class Law, class Kinds, class Space> template <VectorPath path>
-void PairForces<Law, Kinds, Space>::run(const PairForces& pairs, const PairColumns& c, std::size_t first, std::size_t last) {
-  calculate_forces<NumberOf<path>>(pairs, c, first, last);
+void PairForces<Law, Kinds, Space>::run(const PairForces& pairs, const PairColumns& c, std::size_t first, std::size_t last, const BlockSums& sums) {
+  calculate_forces<NumberOf<path>>(pairs, c, first, last, sums);
 }
 
 }  // namespace skred

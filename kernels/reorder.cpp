@@ -25,10 +25,10 @@ std::uint64_t along(double x, double low, double cell) {
 
 }  // namespace
 
-void Reorder::operator()(Read<&Search::due> due, Read<&Search::count> count, Update<&Search::rows_changed> changed,
+void Reorder::operator()(Read<&Search::due> due, Read<&Clock::step> step, Update<&Search::rows_changed> changed,
                          Write<&Search::reordered> reordered, Resize<Particles> particles) const {
   const std::size_t n = particles->rows();
-  const bool sorts = due[0] && every > 0 && (count[0] - 1) % every == 0 && n > 0;
+  const bool sorts = due[0] && reorders(step[0], every) && n > 0;
   const bool known = changed[0];                             // previous_row tells of an older order already: it is sorted with the rest
   reordered[0] = sorts || known;
   changed[0] = 0;

@@ -2,7 +2,6 @@
 // compiler flags that go with it (CMakeLists.txt). Nothing here may be used by other translation units but run<SKRED_PATH>.
 #include "kernels/broadphase_loop.h"
 #include "kernels/contact_sweep_loop.h"
-#include "kernels/force_application_loop.h"
 #include "kernels/force_calculation_loop.h"
 #include "engine/periodic.h"
 #include "kernels/laws.h"
@@ -10,20 +9,12 @@
 namespace skred {
 
 #define SKRED_INSTANTIATE(...) \
-  template void PairForces<__VA_ARGS__>::run<VectorPath::SKRED_PATH>(const PairForces&, const PairColumns&, std::size_t, std::size_t);
+  template void PairForces<__VA_ARGS__>::run<VectorPath::SKRED_PATH>(const PairForces&, const PairColumns&, std::size_t, std::size_t, const BlockSums&);
 #define SKRED_INSTANTIATE_LAW(LAW) \
   SKRED_INSTANTIATE(LAW, AlikeParticles, OpenSpace) SKRED_INSTANTIATE(LAW, AlikeParticles, PeriodicSpace) \
   SKRED_INSTANTIATE(LAW, VariousParticles, OpenSpace) SKRED_INSTANTIATE(LAW, VariousParticles, PeriodicSpace)
 
 SKRED_FOR_EACH_LAW(SKRED_INSTANTIATE_LAW)
-
-#define SKRED_INSTANTIATE_SUM(...) \
-  template void ContactSummation<Moments{__VA_ARGS__}>::run<VectorPath::SKRED_PATH>(const SumColumns&, std::size_t, std::size_t, ContactSums&);
-SKRED_INSTANTIATE_SUM(false, false, false)
-SKRED_INSTANTIATE_SUM(true, false, false)
-SKRED_INSTANTIATE_SUM(true, false, true)
-SKRED_INSTANTIATE_SUM(true, true, false)
-SKRED_INSTANTIATE_SUM(true, true, true)
 
 #define SKRED_INSTANTIATE_SWEEP(...) \
   template void ContactSweep<SweepKind{__VA_ARGS__, false}>::run<VectorPath::SKRED_PATH>(std::span<ContactGroup>, std::span<const ContactGroup>, SolverBody*, double, SweepChange&); \

@@ -128,7 +128,7 @@ Model build_model(const Scene& scene) {
   m.stop_outside = scene.out_of_bounds == OutOfBounds::stop;
   m.skin = scene.search.skin.value_or(0);
   m.cell = scene.search.cell_size.value_or(0);
-  m.reorder_every = scene.search.reorder_every.value_or(m.reorder_every);
+  m.reorder_every = scene.search.reorder_every.value_or(m.method == Method::ndem ? 50 : m.reorder_every);
   for (const BodySpec& body : scene.bodies) {
     m.bodies_at_start.push_back(body.pose);
     auto& pieces = m.pieces.emplace_back();

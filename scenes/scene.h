@@ -164,7 +164,7 @@ struct Scene {
   } limits;
   struct SearchSpec {
     std::optional<double> skin, cell_size;           // [m]; empty: chosen by the program. No result depends on them.
-    std::optional<int> reorder_every;                // searches; 0 never
+    std::optional<int> reorder_every;                // steps; 0 never
   } search;
   struct Output {
     double frame_interval = 0;                       // [s]; 0: first and last frame only

@@ -288,7 +288,7 @@ const Section<Scene::SearchSpec>& search_keys() {
       key("cell_size", Or<Number>{"auto", {"m", positive}}, &S::cell_size,
           "Edge of the cells of the search grid. No result depends on it."),
       key("reorder_every", Or<Integer<int>>{"auto", {}}, &S::reorder_every,
-          "Particles are re-sorted in memory every so many searches; 0: never. No result depends on it."),
+          "Particles are re-sorted in memory every so many steps; 0: never. Smooth DEM adds forces in their order: it changes last digits."),
   }};
   return section;
 }

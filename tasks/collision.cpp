@@ -15,14 +15,14 @@ namespace {
 
 template <class Space>
 void add_search(Task& task, const World& w, const Model& m, const Effects& e, const ContactColumns& columns, double time_step, const Space& space) {
-  task.add(CheckMotion<Space>{space, margins_of(w, m), time_step, m.bounds.has_value(), m.bounds.value_or(Bounds{}), m.stop_outside, step_ahead(w, m)});
-  task.add(Reorder{cell_of(w, m), m.reorder_every});
+  task.add(CheckMotion<Space>{space, margins_of(w, m), time_step, m.bounds.has_value(), m.bounds.value_or(Bounds{}), m.stop_outside, step_ahead(w, m), m.reorder_every});
+  task.add(Reorder{2 * largest_radius(w, m), m.reorder_every});
   if (!e.contacts) return;
   task.add(Broadphase<Space>{space, cell_of(w, m), near_loop<Space>(m.vector_path)});
   task.add(ContactListing<Space>{space, columns});
 }
 
-bool any_history(const ContactColumns& columns) { return columns.spring || (columns.rolling && columns.rolling_is_history) || columns.memory; }
+bool any_history(const ContactColumns& columns) { return columns.spring || columns.rolling || columns.memory; }
 
 template <template <bool, bool, bool> class Hashing> void add_hashing(Task& task, const ContactColumns& columns) {
   if (!any_history(columns)) return;

@@ -32,7 +32,7 @@ struct Model {
   bool stop_outside = true;
   double skin = 0, cell = 0;                       // [m]; 0: chosen from the radii
   VectorPath vector_path = best_vector_path();     // leaves no trace in the results
-  int reorder_every = 20;                          // searches; 0: never
+  int reorder_every = 1000;                        // steps; 0: never
   Buffer<Pose> bodies_at_start;                    // by body
   std::vector<std::vector<MotionPiece>> pieces;    // by body; empty unless kinematic
   std::vector<Remover> removers;                   // take particles out

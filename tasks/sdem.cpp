@@ -9,14 +9,8 @@ namespace {
 
 template <bool contacts, bool bodies> void add_application(Task& task, const Model& m, const Effects& e, double h) {
   // Torques exist where a law makes them; an orientation that is only watched has none.
-  const auto add = [&]<Moments moments>() {
-    task.add(ForceApplicationParticle<contacts, bodies, moments>{m.gravity, h, contact_summation<moments>(m.vector_path)});
-  };
-  if (e.rolling && e.alike) add.template operator()<Moments{true, true, false}>();
-  else if (e.rolling) add.template operator()<Moments{true, true, true}>();
-  else if (e.friction && e.alike) add.template operator()<Moments{true, false, false}>();
-  else if (e.friction) add.template operator()<Moments{true, false, true}>();
-  else add.template operator()<Moments{}>();
+  if (e.friction || e.rolling) task.add(ForceApplicationParticle<contacts, bodies, true>{m.gravity, h});
+  else task.add(ForceApplicationParticle<contacts, bodies, false>{m.gravity, h});
 }
 
 }  // namespace
@@ -32,8 +26,8 @@ void add_sdem(Task& task, const World& world, const Model& model, bool initial) 
     add_crossings(task, model);
     add_flow(task, model);
   }
-  const ContactColumns columns = e.chosen ? ContactColumns{torques, false, e.rolling, torques, false, e.memory}
-                                          : ContactColumns{torques, e.friction, e.rolling, torques && !e.alike};
+  const ContactColumns columns{.sums = true, .torque = torques, .rolling_torque = e.rolling,
+                               .spring = e.friction && !e.chosen, .rolling = e.rolling && !e.chosen, .memory = e.memory};
   add_collision(task, world, model, e, columns, h);
   add_rigid_collision(task, world, e, 0, columns.spring);
   add_force_calculation(task, world, model, e, h);

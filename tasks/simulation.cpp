@@ -49,8 +49,10 @@ Simulation::Simulation(World world, Model model, int threads)
   start_at_zero(std::get<Crossed>(world_), model_.areas.size());
   Incidence& in = std::get<Incidence>(world_);                 // nothing is listed where a start is no number: no contacts then
   in.first.data.assign(n + 1, 0);
-  in.begin_lower.data.assign(n, 0);
-  in.end_lower.data.assign(n, 0);
+  HaloIncidence& halo = std::get<HaloIncidence>(world_);
+  for (auto* c : {&halo.from, &halo.to}) c->data.assign(blocks_of(n) + 1, 0);
+  if (model_.method == Method::sdem)
+    for (auto* c : {&std::get<ContactSums>(world_).force, &std::get<ContactSums>(world_).torque}) c->data.resize(n);
   std::get<BodyIncidence>(world_).first.data.assign(n + 1, 0);
 
   Bodies& b = std::get<Bodies>(world_);

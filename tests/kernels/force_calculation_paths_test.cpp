@@ -20,8 +20,8 @@ constexpr LawCoefficients stiff{6e6, 2e7, 1.8e3, 3.2e3, 0.5, 0.05};
 
 // Columns that the loop writes.
 struct Results {
-  Buffer<Vec3> force, torque, spring, rolling;
-  Buffer<double> arm_ratio;
+  Buffer<Vec3> force, spring, rolling;
+  Buffer<PairSum> sums;
 };
 
 // What a pair may be up to. Neighbouring rows are alike now and then, so that some packs hold one kind only and others several.
@@ -32,7 +32,7 @@ struct Pairs {
   Buffer<Index> i, j;
   Buffer<Vec3> position, velocity, spin;
   Buffer<double> radii, masses;
-  Buffer<Index> material;
+  Buffer<Index> material, sum_of_j;
   std::vector<Kind> kind;
   Results start;
 
@@ -46,8 +46,8 @@ struct Pairs {
     for (auto* c : {&position, &velocity, &spin}) c->resize(2 * count);
     for (auto* c : {&radii, &masses}) c->resize(2 * count);
     material.resize(2 * count);
-    for (auto* c : {&start.force, &start.torque, &start.spring, &start.rolling}) c->resize(count);
-    start.arm_ratio.resize(count);
+    for (auto* c : {&start.force, &start.spring, &start.rolling}) c->resize(count);
+    for (std::size_t k = 0; k < 2 * count; ++k) start.sums.push_back({Four{u(random), u(random), u(random), 0}, Four{u(random), u(random), u(random), 0}});
     Kind what = apart;
     for (std::size_t k = 0, change = 0; k < count; ++k) {
       if (k == change) what = Kind(random() % kinds), change += 1 + random() % (random() % 3 ? 2 : 20);
@@ -71,15 +71,17 @@ struct Pairs {
       if (what == flying_apart) velocity[a] = velocity[b] + 3.0 * n;
       start.spring[k] = any(what == at_rest || what == sticking ? 1e-9 : 1e-3);
       start.rolling[k] = any(what == at_rest || what == sticking ? 1e-9 : 1e-2);
-      start.force[k] = any(1), start.torque[k] = any(1), start.arm_ratio[k] = u(random);
+      start.force[k] = any(1);
     }
+    // Sums of one particle follow each other closely, now as i and now as j.
+    for (std::size_t k = 0; k < count; ++k) sum_of_j.push_back(random() % 2 ? j[k] : i[std::min(count - 1, k - std::min<std::size_t>(k, 2) + random() % 5)]);
   }
 
   template <class P> Results after(const P& pairs, VectorPath path, std::size_t first, std::size_t last) const {
     Results r = start;
     pair_loop<P>(path)(pairs, {i.data(), j.data(), position.data(), velocity.data(), spin.data(), radii.data(), masses.data(),
-                               material.data(), r.force.data(), r.torque.data(), r.arm_ratio.data(), r.spring.data(), r.rolling.data()},
-                       first, last);
+                               material.data(), sum_of_j.data(), r.force.data(), r.spring.data(), r.rolling.data()},
+                       first, last, {0, r.sums.data()});
     return r;
   }
 };
@@ -87,6 +89,9 @@ struct Pairs {
 template <class V> bool same_bits(const Buffer<V>& a, const Buffer<V>& b, std::size_t first, std::size_t last) {
   return std::memcmp(a.data() + first, b.data() + first, (last - first) * sizeof(V)) == 0;
 }
+
+Vec3 force_of(const PairSum& s) { return {s.force[0], s.force[1], s.force[2]}; }
+Vec3 torque_of(const PairSum& s) { return {s.torque[0], s.torque[1], s.torque[2]}; }
 
 // Whether all columns agree in these rows; the first that does not is told.
 testing::AssertionResult same_bits(const Results& a, const Results& b, std::size_t first, std::size_t last) {
@@ -97,9 +102,7 @@ testing::AssertionResult same_bits(const Results& a, const Results& b, std::size
                                            << testing::PrintToString(y[k]);
     return testing::AssertionSuccess();
   };
-  for (const auto& result : {check("force", a.force, b.force), check("torque", a.torque, b.torque),
-                             check("spring", a.spring, b.spring), check("rolling", a.rolling, b.rolling),
-                             check("arm_ratio", a.arm_ratio, b.arm_ratio)})
+  for (const auto& result : {check("force", a.force, b.force), check("spring", a.spring, b.spring), check("rolling", a.rolling, b.rolling)})
     if (!result) return result;
   return testing::AssertionSuccess();
 }
@@ -131,11 +134,11 @@ template <class Law, class Kinds, class Space> void compare(const Kinds& particl
         for (const VectorPath path : vector_paths()) {
           const Results got = pairs.after(forces, path, first, last);
           ASSERT_TRUE(same_bits(got, want, first, last)) << name_of(path) << " [" << first << ", " << last << ") h " << h;
+          ASSERT_TRUE(same_bits(got.sums, want.sums, 0, 2 * all)) << name_of(path) << " sums, [" << first << ", " << last << ") h " << h;
           ASSERT_TRUE(same_bits(got, pairs.start, 0, first)) << name_of(path) << " wrote in front of " << first;
           ASSERT_TRUE(same_bits(got, pairs.start, last, all)) << name_of(path) << " wrote behind " << last;
         }
-        ASSERT_TRUE(Law::rotates || same_bits(want.torque, pairs.start.torque, 0, all));
-        ASSERT_TRUE((Law::rotates && !Kinds::alike) || same_bits(want.arm_ratio, pairs.start.arm_ratio, 0, all));
+        for (std::size_t k = 0; k < want.sums.size(); ++k) ASSERT_TRUE(Law::rotates || torque_of(want.sums[k]) == torque_of(pairs.start.sums[k]));
         ASSERT_TRUE(Law::has_tangential || same_bits(want.spring, pairs.start.spring, 0, all));
         ASSERT_TRUE(Law::has_rolling || same_bits(want.rolling, pairs.start.rolling, 0, all));
       }
@@ -171,12 +174,10 @@ template <class Space> void compare_chosen(const Space& space) {
     for (std::size_t k = 0; k < count; ++k) memory[k] = {0, pairs.start.spring[k], {}, pairs.start.rolling[k]};
     pair_loop<PairForces<ChosenBothMemory, ChosenParticles, Space>>(path)(
         chosen, {pairs.i.data(), pairs.j.data(), pairs.position.data(), pairs.velocity.data(), pairs.spin.data(), pairs.radii.data(), pairs.masses.data(),
-                 pairs.material.data(), got.force.data(), got.torque.data(), got.arm_ratio.data(), nullptr, got.rolling.data(), memory.data()}, 0, count);
-    for (std::size_t k = 0; k < count; ++k) {
-      got.spring[k] = memory[k].tangential;
-      ASSERT_EQ(got.rolling[k], memory[k].rolling);
-    }
+                 pairs.material.data(), pairs.sum_of_j.data(), got.force.data(), nullptr, nullptr, memory.data()}, 0, count, {0, got.sums.data()});
+    for (std::size_t k = 0; k < count; ++k) got.spring[k] = memory[k].tangential, got.rolling[k] = memory[k].rolling;
     EXPECT_TRUE(same_bits(got, want, 0, count)) << name_of(path);
+    EXPECT_TRUE(same_bits(got.sums, want.sums, 0, 2 * count)) << name_of(path);
   }
 }
 
@@ -195,12 +196,12 @@ TEST(PairForces, CasesOfThePairs) {
   for (std::size_t k = 0; k < 4000; ++k) {
     ++seen[pairs.kind[k]];
     if (pairs.kind[k] == apart || pairs.kind[k] == just_touching) {
-      EXPECT_TRUE(r.force[k] == Vec3{} && r.torque[k] == Vec3{} && r.spring[k] == Vec3{} && r.rolling[k] == Vec3{}) << k;
+      EXPECT_TRUE(r.force[k] == Vec3{} && r.spring[k] == Vec3{} && r.rolling[k] == Vec3{}) << k;
       continue;
     }
     const Vec3 branch = pairs.position[pairs.i[k]] - pairs.position[pairs.j[k]];
     const Vec3 n = pairs.kind[k] == at_one_place ? Vec3{0, 0, 1} : normalized(branch);
-    ASSERT_TRUE(is_finite(r.force[k]) && is_finite(r.torque[k]) && is_finite(r.spring[k]) && is_finite(r.rolling[k])) << k;
+    ASSERT_TRUE(is_finite(r.force[k]) && is_finite(r.spring[k]) && is_finite(r.rolling[k])) << k;
     const double normal = dot(r.force[k], n), tangential = norm(in_tangent_plane(r.force[k], n));
     EXPECT_GE(normal, 0);
     EXPECT_LE(tangential, stiff.friction * normal * (1 + 1e-9) + 1e-12);
@@ -212,6 +213,33 @@ TEST(PairForces, CasesOfThePairs) {
   }
   for (const int n : seen) EXPECT_GT(n, 200);
   EXPECT_TRUE(slid > 200 && stuck > 200 && cut_off > 200 && rolled_off > 200) << slid << " " << stuck << " " << cut_off << " " << rolled_off;
+}
+
+// Contact by contact: the force on both, its torque about both centres, and the rolling moment on both.
+TEST(PairForces, SumsAreWhatTheContactsDo) {
+  constexpr std::size_t count = 300;
+  const Pairs pairs(count, OpenSpace{}, true, 8);
+  const VariousParticles particles = three_materials();
+  const Results r = pairs.after(PairForces<FrictionAndRolling<true>, VariousParticles, OpenSpace>{{}, particles, {}, time_step}, VectorPath::scalar, 0, count);
+  std::vector<Vec3> force, torque;
+  for (const PairSum& s : pairs.start.sums) force.push_back(force_of(s)), torque.push_back(torque_of(s));
+  for (std::size_t k = 0; k < count; ++k) {
+    const Index i = pairs.i[k], j = pairs.j[k];
+    const Vec3 branch = pairs.position[i] - pairs.position[j];
+    const double overlap = pairs.radii[i] + pairs.radii[j] - norm(branch);
+    const Vec3 n = norm(branch) > 0 ? normalized(branch) : Vec3{0, 0, 1};
+    force[i] += r.force[k];
+    force[pairs.sum_of_j[k]] -= r.force[k];
+    torque[i] += cross(-(pairs.radii[i] - 0.5 * overlap) * n, r.force[k]) + r.rolling[k];
+    torque[pairs.sum_of_j[k]] += cross((pairs.radii[j] - 0.5 * overlap) * n, -r.force[k]) - r.rolling[k];
+  }
+  std::size_t turned = 0;
+  for (std::size_t k = 0; k < 2 * count; ++k) {
+    EXPECT_LE(norm(force_of(r.sums[k]) - force[k]), 1e-12 * (1 + norm(force[k]))) << k;
+    EXPECT_LE(norm(torque_of(r.sums[k]) - torque[k]), 1e-12 * (1 + norm(torque[k]))) << k;
+    turned += torque[k] != torque_of(pairs.start.sums[k]);
+  }
+  EXPECT_GT(turned, count / 2);
 }
 
 }  // namespace

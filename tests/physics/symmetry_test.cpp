@@ -69,9 +69,11 @@ Vec3 mirror(const Vec3& a) { return {-a.x, a.y, a.z}; }
 Vec3 mirror_axial(const Vec3& a) { return {a.x, -a.y, -a.z}; }
 Vec3 quarter_turn(const Vec3& a) { return {-a.y, a.x, a.z}; }
 
-// Rounding to nearest knows no sign, and x^2 + y^2 = y^2 + x^2.
+// Rounding to nearest knows no sign, and x^2 + y^2 = y^2 + x^2. Rows are left as they are: the curve along which they are sorted, and with
+// it the order of sums, is not the mirrored one.
 TEST(Symmetry, MirrorAndQuarterTurnGiveTheSameBits) {
-  const Lab l = cloud(Method::sdem);
+  Lab l = cloud(Method::sdem);
+  l.model.reorder_every = 0;
   for (const auto& [map, axial] : {std::pair<Map, Map>{mirror, mirror_axial}, {quarter_turn, quarter_turn}}) {
     const auto [before, after] = twins(l, map, axial);
     EXPECT_GT(before.contacts, 1000);
