@@ -161,14 +161,17 @@ struct Parameters {
   Description describe() const;
 };
 
-// What K reads, or a word that means its absence.
+// What K reads, or a word that means its absence. May be nested, for two words.
 template <class K> struct Or {
   using Value = std::optional<typename K::Value>;
   std::string word;                         // auto, none
   K kind;
   bool read(Reader& r, const Node& node, Value& out) const {
     if (node.kind == Node::Kind::scalar && node.text == word) { out.reset(); return true; }
-    return kind.read(r, node, out.emplace());
+    r.words.insert(r.words.begin(), word);
+    const bool good = kind.read(r, node, out.emplace());
+    r.words.erase(r.words.begin());
+    return good;
   }
   Node write(const Value& value) const { return value ? kind.write(*value) : plain(word); }
   Description describe() const {

@@ -84,17 +84,23 @@ void check_energy(const Scene& scene, const World& world, const Model& model) {
 
 constexpr double most_steps = 1e15;                 // of a run: centuries, and exact in a double
 
+ExpectedSpeed speed_of(const Scene& scene, const Prepared& p) {
+  return scene.expected_speed ? ExpectedSpeed{*scene.expected_speed, "given as expected_speed"} : expected_speed(p.world, p.model);
+}
+
 void choose_time_step(const Scene& scene, bool force, Prepared& p) {
-  const double speed = scene.expected_speed.value_or(expected_speed(p.world, p.model));
-  p.advice = scene.method == Method::ndem ? advise_nonsmooth_time_step(p.world, p.model, speed, scene.overlap_tolerance)
-                                          : advise_time_step(p.world, p.model, speed);
+  const ExpectedSpeed speed = speed_of(scene, p);
+  p.advice = scene.method == Method::ndem ? advise_nonsmooth_time_step(p.world, p.model, speed.value, scene.overlap_tolerance)
+                                          : advise_time_step(p.world, p.model, speed.value);
   if (!std::isfinite(p.advice.step) || !(p.advice.step > 0) || !std::isfinite(p.advice.limit))
     throw SceneRefused(fmt::format("time_step: none can be found: {}; radii, speeds, gravity or moduli (in SI units) are beyond what "
                                    "numbers can hold", p.advice.reason));
-  const std::optional<double> given = scene.method == Method::ndem && scene.solver_time_step ? scene.solver_time_step : scene.time_step;
+  const bool own = scene.method == Method::ndem && scene.solver_time_step;
+  const std::optional<double> given = own ? *scene.solver_time_step : scene.time_step;
+  const std::string from = fmt::format("{:.3g} m/s is {}", speed.value, speed.reason);
   if (!given) {
     p.model.time_step = std::min(p.advice.step, scene.end_time);
-    p.notes.push_back(fmt::format("time step {:g} s (auto): {}", p.model.time_step, p.advice.reason));
+    p.notes.push_back(fmt::format("time step {:g} s (auto): {}; {}", p.model.time_step, p.advice.reason, from));
     return;
   }
   p.model.time_step = *given;
@@ -103,8 +109,8 @@ void choose_time_step(const Scene& scene, bool force, Prepared& p) {
                                   p.advice.step, p.advice.limit));
     return;
   }
-  const std::string why = fmt::format("time_step: {:g} s is too large: at most {:.3g} s ({}), recommended {:g} s", p.model.time_step,
-                                      p.advice.limit, p.advice.reason, p.advice.step);
+  const std::string why = fmt::format("{}: {:g} s is too large: at most {:.3g} s ({}), recommended {:g} s ({}); {}", own ? "solver.time_step" : "time_step",
+                                      p.model.time_step, p.advice.limit, p.advice.limit_reason, p.advice.step, p.advice.reason, from);
   if (!force) throw SceneRefused(why + "; --force runs it all the same, and `expected_speed` tells of slower impacts");
   p.warnings.push_back(why + "; forced");
 }
@@ -170,7 +176,7 @@ void check_bounds(const Scene& scene, const World& world) {
 }
 
 void look_ahead(const Scene& scene, Prepared& p) {
-  p.findings = guard(p.world, p.model, scene.expected_speed.value_or(expected_speed(p.world, p.model)), scene.limits.overlap);
+  p.findings = guard(p.world, p.model, speed_of(scene, p).value, scene.limits.overlap);
   for (const Finding& f : p.findings)
     if (f.verdict == Finding::Verdict::warning) p.warnings.push_back(fmt::format("{}: {}, should be {}: {}", f.quantity, f.value, f.limit, f.why));
 }

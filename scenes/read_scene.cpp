@@ -21,6 +21,7 @@ std::vector<Option> all_options(const ReadOptions& o) {
   };
   add("--method", "method", o.method);
   add("--time-step", "time_step", o.time_step);
+  if (o.time_step) out.push_back({"--time-step " + *o.time_step, "solver.time_step", "same"});   // an option goes before the file
   add("--end-time", "end_time", o.end_time);
   add("--seed", "seed", o.seed);
   return out;
@@ -73,7 +74,6 @@ Scene parse_scene(const std::string& text, const std::string& path, const ReadOp
   scene_keys().read(reader, root, scene, false);
   diagnostics.throw_if_any();
   scene.parameters = reader.number_parameters();
-  if (options.time_step) scene.solver_time_step.reset();     // an option goes before the file
   if (scene.name.empty()) scene.name = default_name(path);
   return scene;
 }

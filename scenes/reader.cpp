@@ -55,6 +55,12 @@ void Reader::error(const Mark& at, const std::string& message) {
   diagnostics.error(at, (keys.empty() ? "" : keys.back() + ": ") + message);
 }
 
+std::string Reader::or_words() const {
+  std::string out;
+  for (const std::string& word : words) out += ", or " + word;
+  return out;
+}
+
 std::optional<double> Reader::evaluate_at(const Node& node) {
   try {
     return evaluate(node.text.substr(1), numbers_);
@@ -70,7 +76,7 @@ std::optional<double> Reader::evaluate_at(const Node& node) {
 std::optional<double> Reader::number(const Node& node, const std::string& unit, const Range& range) {
   const std::string in = unit == "1" ? "" : " in " + unit;
   if (node.kind != Node::Kind::scalar) {
-    error(node, "expected a number" + in + ", got " + what_it_is(node));
+    error(node, "expected a number" + in + or_words() + ", got " + what_it_is(node));
     return {};
   }
   double value = 0;
@@ -93,13 +99,13 @@ std::optional<double> Reader::number(const Node& node, const std::string& unit, 
       value = q.value;
     } catch (const std::invalid_argument& e) {
       error(node, std::string(e.what()) + "; expected a number" + in + " such as 0.5" +
-                      (unit == "1" ? "" : ", \"0.5 " + unit + "\"") + " or \"= 2 * a\"");
+                      (unit == "1" ? "" : ", \"0.5 " + unit + "\"") + " or \"= 2 * a\"" + or_words());
       return {};
     }
   }
   if (range.contains(value)) return value;
   error(node, (is_expression(node) ? "'" + node.text + "' = " + number_text(value) : node.text) +
-                  " is out of range: must be " + range.text(unit));
+                  " is out of range: must be " + range.text(unit) + or_words());
   return {};
 }
 

@@ -39,6 +39,7 @@ class Reader {
   std::vector<std::string> materials, bodies;    // their names, as they are read
   std::vector<std::string> flows;                // of removers, inflows and probes
   std::vector<std::string> keys;                 // of the mappings around the value being read; the last one is named in errors
+  std::vector<std::string> words;                // that may stand in place of the number being read
 
   void error(const Mark& at, const std::string& message);          // "key: message"
   void error(const Node& node, const std::string& message) { error(node.at, message); }
@@ -57,6 +58,7 @@ class Reader {
 
  private:
   std::optional<double> evaluate_at(const Node&);
+  std::string or_words() const;                  // ", or auto"
   std::optional<ParameterValue> parameter_value(const Node&);
   void read_parameter(const Node::Entry&);
 

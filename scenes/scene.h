@@ -143,7 +143,7 @@ struct Scene {
   bool all_effects = false;                          // `effects: all` keeps every effect, even where its parameter is zero
   ContactModel contact;
   SolverOptions solver;                              // nonsmooth DEM
-  std::optional<double> solver_time_step;            // [s] nonsmooth DEM; empty: time_step
+  std::optional<std::optional<double>> solver_time_step;   // [s] nonsmooth DEM; empty: time_step; holding an empty one: auto
   double overlap_tolerance = 0.05;                   // nonsmooth DEM: of the diameter, that the automatic step may let impacts reach
   std::array<PeriodicSpec, 3> periodic;
   std::optional<Bounds> bounds;

@@ -240,15 +240,16 @@ const Section<Scene::Start>& start_keys() {
 
 struct SolverKeys {
   SolverOptions options;
-  std::optional<double> time_step;
+  std::optional<std::optional<double>> time_step;
   double overlap_tolerance = Scene{}.overlap_tolerance;
 };
 
 const Section<SolverKeys>& solver_keys() {
   using S = SolverKeys;
   static const Section<S> section{{
-      key("time_step", Or<Number>{"same", {"s", positive}}, &S::time_step,
-          "Time step of nonsmooth DEM, which takes larger ones; same: the scene's time_step. --time-step goes before both."),
+      key("time_step", Or<Or<Number>>{"same", {"auto", {"s", positive}}}, &S::time_step,
+          "Time step of nonsmooth DEM, which takes larger ones; same: the scene's time_step; auto: from the fastest speed and overlap_tolerance. "
+          "--time-step goes before both."),
       nested<S>("iterations", Integer<int>{1}, [](auto& s) -> auto& { return s.options.iterations; }, "Most sweeps of the contact stage in a step."),
       nested<S>("impact_iterations", Integer<int>{1}, [](auto& s) -> auto& { return s.options.impact_iterations; }, "Most sweeps of the impact stage in a step."),
       nested<S>("tolerance", Number{"1", non_negative}, [](auto& s) -> auto& { return s.options.tolerance; },
@@ -340,10 +341,14 @@ void check_scene(Reader& r, const Node& node, Scene& s) {
   check_contact(r, node, s);
   if (s.particles.empty() && s.inflow.empty())
     r.error(node, "missing key 'particles' (list of mappings): only a scene with an inflow may start without particles");
-  if (s.time_step && *s.time_step > s.end_time)
-    if (const Node::Entry* step = node.find("time_step"))
-      r.error(step->value, "time_step: " + number_text(*s.time_step) + " s is longer than end_time, " +
-                               number_text(s.end_time) + " s");
+  const auto check_step = [&](const std::optional<double>& step, const Node* in, const char* name) {
+    const Node::Entry* at = in ? in->find("time_step") : nullptr;
+    if (step && at && *step > s.end_time)
+      r.error(at->value, std::string(name) + ": " + number_text(*step) + " s is longer than end_time, " + number_text(s.end_time) + " s");
+  };
+  check_step(s.time_step, &node, "time_step");
+  if (s.method == Method::ndem && s.solver_time_step)
+    if (const Node::Entry* solver = node.find("solver")) check_step(*s.solver_time_step, &solver->value, "solver.time_step");
 }
 
 }  // namespace
@@ -361,7 +366,7 @@ const Section<Scene>& scene_keys() {
                   "What the scene should show, for `skred check`.").by_default("nothing is expected"),
       key("end_time", Number{"s", positive}, &S::end_time, "Simulated time.").required(),
       key("time_step", Or<Number>{"auto", {"s", positive}}, &S::time_step,
-          "Time step; auto: from the stiffest pair and the expected overlap."),
+          "Time step; auto: from the stiffest pair and the expected overlap, for nonsmooth DEM as in solver."),
       key("expected_speed", Or<Number>{"auto", {"m/s", positive}}, &S::expected_speed,
           "Speed of the fastest impact, for the automatic time step; auto: estimated from the scene."),
       key("seed", Integer<std::uint64_t>{}, &S::seed, "Seed of the random numbers."),

@@ -99,6 +99,7 @@ template <class T> struct Section {
       return false;
     }
     const std::size_t errors = r.diagnostics.count();
+    const std::vector<std::string> words_of_mapping = std::exchange(r.words, {});
     reject_unknown(r, node, conditional);
     for (const Key<T>& k : keys) {
       const Node::Entry* entry = node.find(k.name);
@@ -111,6 +112,7 @@ template <class T> struct Section {
       k.read(r, entry->value, out);
       r.keys.pop_back();
     }
+    r.words = words_of_mapping;
     if (check && r.diagnostics.count() == errors) check(r, node, out);
     return r.diagnostics.count() == errors;
   }

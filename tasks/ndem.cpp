@@ -72,7 +72,7 @@ void add_ndem(Task& task, const World& world, const Model& model, bool initial) 
   if (initial && e.moving_bodies) task.add(MoveBodies{model.pieces, model.bodies_at_start, model.time_step, 0});
   if (!initial) add_flow(task, model);
   add_collision(task, world, model, e, {.rolling_torque = e.rolling, .spring = e.history, .rolling = e.rolling}, model.time_step);
-  add_rigid_collision(task, world, e, model.time_step * expected_speed(world, model), true);
+  add_rigid_collision(task, world, e, model.time_step * expected_speed(world, model).value, true);
   const auto add = [&](const auto& space) {
     if (e.rolling) add_solver<true>(task, world, model, e, space, initial);
     else add_solver<false>(task, world, model, e, space, initial);

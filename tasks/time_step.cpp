@@ -153,7 +153,7 @@ double limit_of(const Limits& l) { return std::min({l.contact_time / 10, l.sprin
 
 }  // namespace
 
-double expected_speed(const World& w, const Model& m) {
+ExpectedSpeed expected_speed(const World& w, const Model& m) {
   const Particles& p = std::get<Particles>(w);
   const Vec3 g = m.gravity;
   double fastest = 0, low = std::numeric_limits<double>::infinity(), high = -low;   // where nothing falls: high < low
@@ -190,8 +190,15 @@ double expected_speed(const World& w, const Model& m) {
     const double turning = std::isfinite(size) ? norm(b.angular_velocity.data[body]) * (norm(geometry.local.data[k].position) + size) : 0;
     walls = std::max(walls, norm(b.velocity.data[body]) + turning);
   }
-  const double fall = std::sqrt(2 * norm(g) * std::max(0.0, high - low));
-  return std::max({2 * fastest, fastest + walls, std::hypot(fastest, fall) + walls, 1e-3});
+  const double height = std::max(0.0, high - low), fall = std::sqrt(2 * norm(g) * height);
+  const std::string wall = walls > 0 ? number(" onto a wall that moves at %.3g m/s", walls) : "";
+  const std::string start = fastest > 0 ? number(" from %.3g m/s", fastest) : "";
+  ExpectedSpeed least{1e-3, "the least that is reckoned with: nothing moves or falls"};
+  for (const ExpectedSpeed& e : {ExpectedSpeed{2 * fastest, number("that of two particles that meet at %.3g m/s each", fastest)},
+                                 ExpectedSpeed{fastest + walls, "that of a particle" + start + wall},
+                                 ExpectedSpeed{std::hypot(fastest, fall) + walls, number("that of a fall of %.3g m", height) + start + wall}})
+    if (e.value > least.value || std::isnan(e.value)) least = e;
+  return least;
 }
 
 TimeStepAdvice advise_time_step(const World& w, const Model& m, double speed) {
@@ -211,8 +218,11 @@ TimeStepAdvice advise_time_step(const World& w, const Model& m, double speed) {
   a.stability_limit = l.springs;
   a.damping_limit = l.dashpots;
   a.step = two_digits_down(step_of(l));
-  a.limit = limit_of(l);
-  for (const Limits& other : limits) a.limit = std::min(a.limit, limit_of(other));
+  const auto lowest = std::min_element(limits.begin(), limits.end(), [](const Limits& x, const Limits& y) { return limit_of(x) < limit_of(y); });
+  a.limit = limit_of(*lowest);
+  a.limit_reason = a.limit == lowest->contact_time / 10 ? "a tenth of the shortest contact"
+                   : a.limit == lowest->springs / 2     ? "half of what springs allow"
+                                                        : "0.9 of what dashpots allow";
   const std::string of = bodies ? "bodies on both sides" : "a dense packing";
   a.reason = number("an impact at %.3g m/s overlaps %.3g mm and lasts %.3g ms; ", speed, a.overlap * 1e3, a.contact_time * 1e3);
   if (bodies) a.reason = "of a body against another, " + a.reason;
@@ -231,7 +241,9 @@ TimeStepAdvice advise_nonsmooth_time_step(const World& w, const Model& m, double
   const double by_speed = reach / speed, by_fall = g > 0 ? std::sqrt(2 * reach / g) : by_speed;
   a.step = two_digits_down(std::min(by_speed, by_fall));
   a.limit = std::max(radius / speed, a.step);
-  a.reason = number("at %.3g m/s a particle goes %.3g mm in this step, ", speed, a.step * speed * 1e3) +
+  a.limit_reason = number("there a particle at %.3g m/s goes its radius, %.3g mm", speed, a.limit * speed * 1e3);
+  a.reason = (by_speed <= by_fall ? number("at %.3g m/s a particle goes %.3g mm in this step, ", speed, a.step * speed * 1e3)
+                                  : number("at rest, a particle falls %.3g mm in this step, ", 0.5 * g * a.step * a.step * 1e3)) +
              number("of %.3g mm that overlap_tolerance %.3g allows", reach * 1e3, tolerance);
   return a;
 }

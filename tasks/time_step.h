@@ -14,6 +14,7 @@ struct TimeStepAdvice {
   double stability_limit = 0;   // [s] 2 / omega_max of a dense packing
   double damping_limit = 0;     // [s] 2 / lambda
   std::string reason;           // one sentence with the numbers
+  std::string limit_reason;     // what the limit is: "a tenth of ..."
 };
 
 // For a scene whose fastest impact has `speed` [m/s]: the stiffest pair of the smallest particle.
@@ -28,12 +29,16 @@ struct TimeStepAdvice {
 // bodies touch each other their corners count as well, with the mass that gives way there: the least of both is the advice.
 TimeStepAdvice advise_time_step(const World&, const Model&, double speed);
 
-// The fastest impact to expect [m/s]: speeds at the start, prescribed motion of bodies, and a fall through the height of the scene.
-double expected_speed(const World&, const Model&);
+// The fastest impact to expect: speeds at the start, prescribed motion of bodies, and a fall through the height of the scene.
+struct ExpectedSpeed {
+  double value = 0;             // [m/s] > 0
+  std::string reason;           // "that of a fall of 1.2 m onto a wall that moves at 0.5 m/s"
+};
+ExpectedSpeed expected_speed(const World&, const Model&);
 
 // For nonsmooth DEM, whose steps are limited by motion and not by stiffness: in one step the fastest particle goes no more than the
-// part `tolerance` of the smallest diameter, h <= 2 epsilon R / v (2.7), and no more than that in free fall from rest. Beyond a
-// radius per step the physics is lost: `limit`.
+// part `tolerance` of the smallest diameter, h <= 2 epsilon R / v (Pettersson 2015, eq. 2.7), and no more than that in free fall from
+// rest. Beyond a radius per step the physics is lost: `limit`.
 TimeStepAdvice advise_nonsmooth_time_step(const World&, const Model&, double speed, double tolerance);
 
 }  // namespace skred

@@ -242,7 +242,7 @@ TEST(RigidContacts, AHeapComesToRestAtTheAdvisedStep) {
     if (k % 4) l.block(at, {half, 0.8 * half, 0.6 * half}, turned);
     else l.body(CylinderShape{0.7 * half, 1.4 * half}, {at, turned}, Motion::dynamic, 0.01, {5e-7, 5e-7, 2.5e-7});
   }
-  const TimeStepAdvice advice = advise_time_step(l.world, l.model, expected_speed(l.world, l.model));
+  const TimeStepAdvice advice = advise_time_step(l.world, l.model, expected_speed(l.world, l.model).value);
   l.model.time_step = advice.step;
   EXPECT_GT(advice.step, 1e-5);
   const auto s = l.build();

@@ -171,10 +171,29 @@ TEST(BadScene, WrongType) {
   EXPECT_THAT(errors_of(head + one_particle + "seed: 1.5\n"), HasSubstr("seed: 1.5 is not an integer"));
   EXPECT_THAT(errors_of(head + one_particle + "seed: 18446744073709551616\n"),
               HasSubstr("too large: must be <= 18446744073709551615"));
-  EXPECT_THAT(errors_of(head + one_particle + "time_step:\n"), HasSubstr("time_step: expected a number in s, got nothing"));
+  EXPECT_THAT(errors_of(head + one_particle + "time_step:\n"), HasSubstr("time_step: expected a number in s, or auto, got nothing"));
   EXPECT_THAT(errors_of(head + one_particle + "contact: {normal: hooke}\n"), HasSubstr("'hooke' is not one of hertz, linear, kuwabara_kono, walton_braun, none"));
   EXPECT_THAT(errors_of(head + one_particle + "name: a/b\n"), HasSubstr("'a/b' is not a name"));
   EXPECT_THAT(errors_of("[1, 2]"), HasSubstr("a scene is a mapping of keys, not a list"));
+}
+
+TEST(ReadScene, StepOfNonsmoothDem) {
+  const std::string text = head + one_particle + "method: ndem\ntime_step: 0.1\n";
+  const auto step = [&](const std::string& line, const ReadOptions& o = {}) { return parse_scene(text + line, "s.yaml", o).solver_time_step; };
+  for (const char* same : {"", "solver: {iterations: 3}\n", "solver: {time_step: same}\n"}) EXPECT_FALSE(step(same).has_value()) << same;
+  for (const auto& automatic : {step("solver: {time_step: auto}\n"), step("", {.overrides = {{"solver.time_step", "auto"}}})}) {
+    ASSERT_TRUE(automatic.has_value());
+    EXPECT_FALSE(automatic->has_value());
+  }
+  EXPECT_EQ(step("solver: {time_step: 2 ms}\n"), std::optional(2e-3));
+  EXPECT_FALSE(step("solver: {time_step: 2}\n", {.time_step = "1 ms"}).has_value());    // --time-step goes before it
+  const auto error = [&](const std::string& value) { return errors_of(text + "solver: {time_step: " + value + "}\n"); };
+  EXPECT_THAT(error("soon"), HasSubstr("s.yaml:7:21: error: time_step: 'soon' is not a number; expected a number in s such as 0.5, \"0.5 s\" or "
+                                       "\"= 2 * a\", or auto, or same\n"));
+  EXPECT_THAT(error("-1 ms"), HasSubstr("time_step: -1 ms is out of range: must be > 0 s, or auto, or same"));
+  EXPECT_THAT(error("[1]"), HasSubstr("time_step: expected a number in s, or auto, or same, got a list"));
+  EXPECT_THAT(error("2"), HasSubstr("s.yaml:7:21: error: solver.time_step: 2 s is longer than end_time, 1 s"));
+  EXPECT_THAT(errors_of(text + "bounds: {min: [0, 0, 0], max: [soon, 0, 0]}\n"), testing::Not(HasSubstr("or none")));   // not that of a corner
 }
 
 TEST(BadScene, Empty) {

@@ -122,6 +122,8 @@ def case_time_step_too_large(program):
     said = ["time_step: 0.001 s is too large: at most 0.000", "recommended", "--force"]
     program.small("time_step=1 ms", code=3, says=said)
     program("validate", "small.yaml", "--time-step", "1 ms", code=3, says=said)
+    program("validate", "small.yaml", "--method", "ndem", "--set", "solver.time_step=15 ms", code=3,
+            says=["solver.time_step: 0.015 s is too large: at most 0.0", "goes its radius", "recommended 0.00", "--force"])
     program.small("time_step=0.4 ms", "end_time=1.2 ms", options=["--force"], says=["warning: time_step: 0.0004 s is too large", "forced"])
 
 

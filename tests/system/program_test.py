@@ -353,6 +353,27 @@ def case_other_verbs(program):
     contains(program("run", "--help").stdout, ["--threads", "--vector", "auto|scalar|sse2|avx2|avx512", "--trace-steps", "--summary"])
 
 
+def case_automatic_step_of_nonsmooth_dem(program):
+    """However it is asked for, it is that of equation 2.7, and told with where it comes from."""
+    asked = [["--time-step", "auto"], ["--set", "solver.time_step=auto"], ["--set", "solver={}"]]
+    for words in asked:                                      # 2 * 0.05 * 2 cm / 1.98 m/s
+        contains(program("validate", scene("hello"), "--method", "ndem", *words).stdout,
+                 ["time step 0.001 s (auto): at 1.98 m/s a particle goes 1.98 mm in this step, of 2 mm that overlap_tolerance 0.05 allows; "
+                  "1.98 m/s is that of a fall of 0.2 m", "in 1000 steps"])
+    slow = ["--set", "expected_speed=0.5 m/s", "--set", "solver.overlap_tolerance=0.1"]   # 2 * 0.1 * 6.36665 mm / 0.5 m/s, two digits
+    done = program.run(scene("drum"), "--method", "ndem", *asked[1], *slow, "--end-time", "20 ms")
+    contains(read("out", "log.txt"), ["time step 0.0025 s (auto): at 0.5 m/s a particle goes 1.25 mm in this step, of 1.27 mm",
+                                      "0.5 m/s is given as expected_speed"])
+    assert summary()["time_step"] == 0.0025 and summary()["steps"] == 8 and "time step 0.0025 s (auto)" in done.stderr
+    contains(program("validate", "out/scene.resolved.yaml").stdout, ["time step 0.0025 s (auto)"])
+    contains(program("validate", scene("drum"), *asked[1]).stdout, ["time step 5e-05 s (given"])   # smooth DEM has its own
+    still = program("validate", scene("hello"), "--method", "ndem", "--set", "expected_speed=1 mm/s").stdout
+    contains(still, ["time step 0.02 s (auto): at rest, a particle falls 1.96 mm in this step, of 2 mm"])
+    for a in (4, 6, 8, 10):
+        for name in ("drum", "silo"):
+            contains(program("validate", scene(name), "--method", "ndem", "--set", f"a={a}").stdout, ["is sound"])
+
+
 def case_contact_laws(program):
     """Every contact law can be named on the command line, gives its own motion, and the log says what it does not use."""
     def run(*laws, code=0, says=(), method="sdem"):
