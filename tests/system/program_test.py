@@ -307,6 +307,18 @@ def case_trace_is_valid(program):
     assert {"broadphase", "contact_hashing", "force_calculation_particle_particle", "integrate"} <= names, names
 
 
+def case_sweeps_and_colours_in_the_trace(program):
+    """The solver is one kernel, and what its threads did in it is told by sweep and colour."""
+    program.run(*DRUM, "--method", "ndem", "--threads", 2, "--trace", "t.json", "--trace-steps", "90:100", "--quiet")
+    loops = [e["args"] for e in json.loads(read("t.json"))["traceEvents"] if e.get("cat") == "chunk" and e["name"] == "contact_solve"]
+    steps = {a["step"] for a in loops}
+    assert steps == set(range(90, 100)), steps
+    for step in steps:
+        done = [(a["sweep"], a["colour"]) for a in loops if a["step"] == step and "sweep" in a]
+        last = max(sweep for sweep, _ in done)
+        assert last >= 1 and {c for _, c in done} <= set(range(8)) and {s for s, _ in done} == set(range(1, last + 1)), done
+
+
 def case_trace_that_misses_the_run_says_so(program):
     program.small(options=["--trace", "t.json", "--trace-steps", "100000:100001"], says=["none of the steps asked for was run"])
     json.loads(read("t.json"))
