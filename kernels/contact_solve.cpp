@@ -46,10 +46,9 @@ double power(double x, int n) {
 double residual_of(const SweepChange& all) { return all.change == 0 ? 0 : all.change / all.total; }
 
 // Whether the last sweep, whose changes are `ratio` of those of the sweep before, may be the last. Changes that go on to fall like that
-// add up to ratio / (1 - ratio) times the last one; below `rounding` there is nothing left but rounding.
+// add up to ratio / (1 - ratio) times the last one.
 bool is_enough(const SweepOptions& o, double residual, double ratio) {
-  constexpr double rounding = 1e-14;
-  return residual <= o.tolerance && (residual * ratio <= o.error_tolerance * (1 - ratio) || residual <= rounding);
+  return residual <= o.tolerance && (residual * ratio <= o.error_tolerance * (1 - ratio) || is_rounding(residual, ratio));
 }
 
 Outcome solve(const Parallel& parallel, const SweepOptions& o, const System& of) {

@@ -9,6 +9,10 @@
 
 namespace skred {
 
+// Whether a sweep that changes so small a part of all impulses, `ratio` times that of the sweep before, has left nothing but rounding.
+// That is one of velocities: where a few spheres barely touch as they fall, it is far more than one of their impulses, and no longer falls.
+constexpr bool is_rounding(double residual, double ratio) { return residual <= 1e-14 || (residual <= 1e-10 && ratio >= 1); }
+
 struct SweepOptions {
   int most = 1;                  // sweeps, >= 1
   double tolerance = 0;          // stop when a sweep changes less than this part of all impulses ...

@@ -47,14 +47,16 @@ std::shared_ptr<spdlog::logger> make_log(const OutputFolder& folder, const RunOp
 // How the solver of nonsmooth DEM did.
 struct Sweeps {
   std::int64_t contact = 0, most = 0, impact = 0, contact_sweeps = 0;   // sums over the steps; contact_sweeps: contacts times sweeps
-  double residual = 0, error = 0, impact_residual = 0;                   // greatest at the end of a step
+  std::int64_t not_falling = 0;                                          // steps whose changes hardly fell: their error is unknown
+  double residual = 0, error = 0, impact_residual = 0;                   // greatest at the end of a step; of the others
   void add(const World& w) {
     const Solver& s = std::get<Solver>(w);
     contact += s.sweeps.data[0], impact += s.impact_sweeps.data[0];
     most = std::max(most, s.sweeps.data[0]);
     contact_sweeps += s.sweeps.data[0] * s.contacts.data[0];
     residual = std::max(residual, s.residual.data[0]);
-    error = std::max(error, solver_error(w));
+    if (const double e = solver_error(w); e < 1) error = std::max(error, e);
+    else ++not_falling;
     impact_residual = std::max(impact_residual, s.impact_residual.data[0]);
   }
 };
@@ -107,6 +109,7 @@ void add_solver(nlohmann::json& summary, const Run& r, const Timeline::Totals& t
   summary["greatest_residual"] = r.sweeps.residual;
   summary["error"] = solver_error(r.sim.world());
   summary["greatest_error"] = r.sweeps.error;
+  summary["steps_of_unknown_error"] = r.sweeps.not_falling;
   summary["steps_unsolved"] = s.unsolved.data[0];
   summary["greatest_impact_residual"] = r.sweeps.impact_residual;
   summary["impacts_unsolved"] = s.impacts_unsolved.data[0];
@@ -144,6 +147,12 @@ nlohmann::json make_summary(const Run& r, const std::string& outcome, double wal
   return summary;
 }
 
+std::string error_text(const Sweeps& s) {
+  if (s.not_falling == 0) return fmt::format("greatest error {:.2g}", s.error);
+  const std::string known = s.error > 0 ? fmt::format("greatest error known {:.2g}; ", s.error) : "";
+  return known + fmt::format("error unknown in {} steps, whose changes hardly fell from sweep to sweep", s.not_falling);
+}
+
 // A solver that stopped before its tolerance does not do so in silence.
 std::string solver_text(const Run& r) {
   if (r.scene.method != Method::ndem) return "";
@@ -153,8 +162,8 @@ std::string solver_text(const Run& r) {
   std::string text = fmt::format(", {:.1f} sweeps a step", double(r.sweeps.contact) / steps);
   if (unsolved > 0)
     text += fmt::format("; {} of {} steps stopped at {} sweeps above the tolerance {:g} (greatest residual {:.2g}) or the error tolerance {:g} "
-                        "(greatest error {:.2g})", unsolved, r.sim.steps_done(), r.scene.solver.iterations, r.scene.solver.tolerance, r.sweeps.residual,
-                        error_tolerance_of(r.sim.model()), r.sweeps.error);
+                        "({})", unsolved, r.sim.steps_done(), r.scene.solver.iterations, r.scene.solver.tolerance, r.sweeps.residual,
+                        error_tolerance_of(r.sim.model()), error_text(r.sweeps));
   if (impacts_unsolved > 0)
     text += fmt::format("; the impact stage of {} steps stopped at {} sweeps above the tolerance (greatest residual {:.2g})", impacts_unsolved,
                         r.scene.solver.impact_iterations, r.sweeps.impact_residual);

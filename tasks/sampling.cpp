@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include "kernels/contact_solve.h"
 
 namespace skred {
 
@@ -189,10 +190,10 @@ Frame make_frame(const Simulation& sim, const FrameOptions& options) {
 
 double solver_error(const World& w) {
   const Solver& s = std::get<Solver>(w);
-  if (s.sweeps.data[0] == 0 || s.residual.data[0] == 0) return 0;
-  const double left = std::max(s.error_left.data[0], std::numeric_limits<double>::min());
+  const double residual = s.residual.data[0], left = std::max(s.error_left.data[0], std::numeric_limits<double>::min());
+  if (s.sweeps.data[0] == 0) return 0;
   const double ratio = std::pow(left, 1 / double(s.sweeps.data[0]));
-  return s.residual.data[0] * ratio / (1 - ratio);
+  return is_rounding(residual, ratio) ? residual : residual * ratio / (1 - ratio);
 }
 
 }  // namespace skred

@@ -44,7 +44,8 @@ struct FrameOptions { bool contacts = false; };
 Frame make_frame(const Simulation&, const FrameOptions&);
 
 // What the solver of nonsmooth DEM reckons is left to be changed in its impulses, as part of their sum: its changes fell by some ratio
-// from sweep to sweep, and go on so. Infinite where they do not fall; 0 in smooth DEM.
+// from sweep to sweep, and go on so. Infinite where they do not fall, unless they are rounding; 0 in smooth DEM. From 1 on, where they
+// hardly fall, it tells nothing but that.
 double solver_error(const World&);
 
 }  // namespace skred

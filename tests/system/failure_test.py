@@ -257,6 +257,11 @@ def case_overlap_beyond_the_limit(program):
                   "output.statistics_interval=10 us", code=4, says=["particle 0: overlap of 0.3", "allowed 0.3 (limits.overlap)"])
 
 
+def told_by(done):
+    """The closing line."""
+    return next(line for line in reversed(done.stderr.splitlines()) if line.startswith("finished"))
+
+
 def case_solver_short_of_its_tolerance(program):
     """Of nonsmooth DEM: it says so on the terminal, in the log, in the summary and in the time series."""
     nonsmooth = ["--method", "ndem", "--time-step", "1 ms"]
@@ -269,8 +274,14 @@ def case_solver_short_of_its_tolerance(program):
     contains(read("out", "log.txt"), [told])
     header, *rows = [line.split(",") for line in read("out", "statistics.csv").splitlines()]
     assert int(rows[-1][header.index("steps_unsolved [1]")]) == s["steps_unsolved"]
+    assert 0 < s["greatest_error"] < 1 and "inf" not in told_by(done), s
+    done = program.small(LIST % stack, "solver={iterations: 1, tolerance: 1e-9}", "end_time=0.1", options=nonsmooth, output="one")   # no trend
+    s = summary("one")
+    assert s["steps_unsolved"] == s["steps_of_unknown_error"] == 100 and s["greatest_error"] == 0, s
+    contains(told_by(done), ["the error tolerance 0.1 (error unknown in 100 steps, whose changes hardly fell from sweep to sweep)"])
     done = program.small(LIST % stack, "solver={iterations: 5000, tolerance: 1e-9}", options=nonsmooth, output="solved")
-    assert summary("solved")["steps_unsolved"] == 0 and "above the tolerance" not in done.stderr
+    s = summary("solved")
+    assert s["steps_unsolved"] == s["steps_of_unknown_error"] == 0 and "above the tolerance" not in done.stderr
 
 
 def case_nonsmooth_beyond_numbers(program):
