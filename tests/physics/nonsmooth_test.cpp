@@ -210,7 +210,7 @@ TEST(Nonsmooth, SweepsOfARigidColumnGrowWithTheSquareOfItsHeight) {
     for (int k = 0; k < n; ++k) lab.sphere({0, 0, R - 1e-12 + k * (2 * R - 1e-12)});
     lab.model.solver.warm_start = false;
     lab.model.solver.tolerance = 0;
-    EXPECT_NEAR(sweeps_needed(lab, 3 * expected, n * m * g), expected, 0.05 * expected) << n;
+    EXPECT_NEAR(sweeps_needed(lab, 3 * expected, n * m * g), expected, std::max(1.0, 0.02 * expected)) << n;
   }
 }
 
@@ -251,6 +251,27 @@ TEST(Nonsmooth, NoneOfTenThousandShotsEscapes) {               // T13
   }
   EXPECT_EQ(shots, 10000);
   EXPECT_EQ(escaped, 0);
+}
+
+TEST(Nonsmooth, NoneOfAThousandShotsPassesThroughAParticle) {   // as good as fixed; the shots do not all meet its middle
+  std::mt19937_64 random(23);
+  const auto u = [&] { return 2.0 * double(random() >> 11) * 0x1p-53 - 1.0; };
+  constexpr double h = 1e-3;
+  int passed = 0;
+  for (int shot = 0; shot < 1000; ++shot) {
+    const double diameters = 0.5 + 2.25 * (1 + u()), away = (2.5 + 10 * (1 + u())) * R, beside = 1.9 * R * u();   // v h = 0.5 .. 5 d
+    const Vec3 along = normalized(Vec3{u(), u(), u()}), side = normalized(cross(along, Vec3{u(), u(), 2}));
+    NonsmoothLab lab(0.5, 0.3, 0, h);
+    lab.sphere({}, {}, {}, R, 1e6 * m);
+    lab.sphere(beside * side - away * along, (diameters * 2 * R / h) * along);
+    lab.model.solver = {};
+    auto s = lab.build();
+    s->start();
+    const double v = norm(velocity(*s, 1));
+    for (int k = 0; k < std::ceil(away / (v * h)) + 5; ++k) s->step();
+    passed += dot(velocity(*s, 1), along) > 0.99 * v;
+  }
+  EXPECT_EQ(passed, 0);
 }
 
 // --- dynamic rigid bodies ---------------------------------------------------------------------------------------------------
@@ -296,6 +317,23 @@ TEST(NonsmoothBodies, BoxOnAnInclineSticksOrSlides) {
   }
 }
 
+TEST(NonsmoothBodies, AMeshIsTheBoxItLooksLike) {
+  const double theta = std::atan(0.6), mu = 0.5;
+  std::vector<double> slid;
+  for (const Shape& shape : {cube(), closed_box(edge / 2)}) {
+    NonsmoothLab lab(0, mu, 0);
+    lab.model.gravity = g * Vec3{std::sin(theta), 0, -std::cos(theta)};
+    lab.floor();
+    lab.body(shape, {{0, 0, edge / 2}}, Motion::dynamic, box_mass, box_inertia);
+    lab.model.solver.tolerance = 1e-9;
+    auto s = lab.build();
+    run(*s, 0.3);
+    EXPECT_NEAR(speed(*s, 1).x, 0.3 * g * (std::sin(theta) - mu * std::cos(theta)), 0.005 * g * 0.3);
+    slid.push_back(place(*s, 1).x);
+  }
+  EXPECT_NEAR(slid[0], slid[1], 1e-3 * slid[0]);
+}
+
 // A box falls on a bed of spheres and comes to rest on it; whatever it does, forces are mutual.
 std::unique_ptr<Simulation> box_on_a_bed(int threads, double time) {
   NonsmoothLab lab(0.18, 0.6, 0.1);
@@ -334,6 +372,32 @@ TEST(NonsmoothBodies, SameBitsForAnyThreads) {
   for (const int threads : {2, 4}) EXPECT_EQ(box_on_a_bed(threads, 0.3)->state_hash(), expected);
 }
 
+// A plate that lies on 400 spheres: all its contacts share one body.
+TEST(NonsmoothBodies, PlateOnManyParticlesHasTheSameBitsForAnyThreads) {
+  constexpr int n = 20;
+  constexpr double mass = 2;
+  const auto rest = [&](int threads) {
+    NonsmoothLab lab(0.18, 0.6, 0.1);
+    lab.under_gravity();
+    lab.floor();
+    for (int k = 0; k < n * n; ++k) lab.sphere({(k % n - 0.5 * (n - 1)) * 2.02 * R, (k / n - 0.5 * (n - 1)) * 2.02 * R, R}, {1e-3 * (k % 7), 0, 0});
+    const Vec3 half{1.05 * n * R, 1.05 * n * R, R};
+    const Vec3 inertia = mass / 3 * Vec3{half.y * half.y + half.z * half.z, half.x * half.x + half.z * half.z, half.x * half.x + half.y * half.y};
+    lab.body(BoxShape{half}, {{0, 0, 3 * R}}, Motion::dynamic, mass, inertia);
+    lab.model.solver = {};
+    auto s = lab.build(threads);
+    s->start();
+    for (int k = 0; k < 300; ++k) s->step();
+    return s;
+  };
+  auto one = rest(1);
+  EXPECT_EQ(std::get<HubContacts>(one->world()).rows(), std::size_t(n * n));
+  EXPECT_NEAR(measure(*one).loads[1].force.z / (mass * g), 1, 1e-3);
+  const auto expected = one->state_hash();
+  one.reset();                                                 // while it lives there are no more threads than it has
+  for (const int threads : {2, 4}) EXPECT_EQ(rest(threads)->state_hash(), expected) << threads;
+}
+
 TEST(NonsmoothBodies, MomentumIsKept) {
   NonsmoothLab lab(0.5, 0.4, 0);
   lab.body(cube(), {{0, 0, 0}}, Motion::dynamic, 1, box_inertia);
@@ -346,10 +410,18 @@ TEST(NonsmoothBodies, MomentumIsKept) {
   const auto momentum = [&] {
     return 1.0 * speed(*s, 0) + 2.0 * speed(*s, 1) + 0.2 * velocity(*s, 0);
   };
-  const Vec3 before = momentum();
+  const auto angular_momentum = [&] {                          // cubes and spheres: their inertia is a number
+    const auto& spins = std::get<Bodies>(s->world()).angular_velocity.data;
+    const double i = 0.4 * 0.2 * 25 * R * R;
+    return cross(place(*s, 0), speed(*s, 0)) + 2.0 * cross(place(*s, 1), speed(*s, 1)) + 0.2 * cross(position(*s, 0), velocity(*s, 0)) +
+           box_inertia.x * (spins[0] + 2.0 * spins[1]) + i * spin(*s, 0);
+  };
+  const Vec3 before = momentum(), turning_before = angular_momentum();
   for (int k = 0; k < 200; ++k) s->step();
   EXPECT_GT(speed(*s, 1).x, 0.1);
+  EXPECT_GT(norm(std::get<Bodies>(s->world()).angular_velocity.data[1]), 0.1);
   EXPECT_LT(norm(momentum() - before), 1e-12);
+  EXPECT_LT(norm(angular_momentum() - turning_before), 1e-12);
 }
 
 }  // namespace
