@@ -56,6 +56,24 @@ TEST(HardCases, ProductionSettingsKeepAStiffTowerStill) {
   EXPECT_GT(greatest_speed_of_tower(by_change), 1e-3);
 }
 
+// What is told of the error: the sum of changes that go on to fall as they did; rounding where they are tiny and do not; else nothing.
+TEST(HardCases, ErrorThatIsTold) {
+  NonsmoothLab lab(0, 0, 0);
+  lab.sphere({0, 0, R});
+  auto s = lab.build();
+  const auto error = [&](std::int64_t sweeps, double residual, double ratio) {
+    Solver& solver = std::get<Solver>(s->world());
+    solver.sweeps.data[0] = sweeps, solver.residual.data[0] = residual, solver.error_left.data[0] = std::pow(ratio, double(sweeps));
+    return solver_error(s->world());
+  };
+  EXPECT_EQ(error(0, 1, 1), 0);
+  EXPECT_NEAR(error(40, 1e-3, 0.75), 3e-3, 1e-15);
+  EXPECT_NEAR(error(40, 1e-12, 0.75), 3e-12, 1e-24);
+  EXPECT_EQ(error(500, 2.353e-13, 1), 2.353e-13);
+  EXPECT_EQ(error(500, 1e-15, 0.999), 1e-15);
+  EXPECT_EQ(error(500, 1e-9, 1), std::numeric_limits<double>::infinity());
+}
+
 // A heavy sphere on a light one on a floor, as good as rigid, started cold: the error falls by 1 + m/M per sweep.   T5
 TEST(HardCases, HeavyOnLightConvergesAtTheRateOfTheMassRatio) {
   for (const double ratio : {10.0, 100.0, 1000.0}) {
