@@ -137,7 +137,7 @@ const Section<Expectation>& expectation_keys() {
       key("at_least", Text{}, &E::at_least, "Formula: least value that is right."),
       key("of", Word<E::Of>{{{"run", E::Of::run}, {"seeds", E::Of::seeds}, {"runs", E::Of::runs}, {"methods", E::Of::methods}}}, &E::of,
           "run: every run on its own; seeds: the mean over the seeds, whose confidence interval of 95 % must lie within the tolerance; "
-          "runs: the formulas see the values of all runs, as mean(\"v\") or slope(\"v against w\"); methods: those of both methods, as "
+          "runs: the formulas see the values of all runs, as mean(\"v\") or slope(\"v against w\"); methods: those of both methods, means over the seeds, as "
           "sdem(\"v\") and ndem(\"v\")."),
       key("method", Word<E::Methods>{{{"all", E::Methods::all}, {"sdem", E::Methods::sdem}, {"ndem", E::Methods::ndem}}}, &E::method,
           "Only of this method."),

@@ -194,19 +194,27 @@ void judge_all_runs(const CheckCase& c, std::size_t e, CaseResult& result) {
   }
 }
 
+// The methods' values are those of a row of `vary`: means over the seeds.
 void judge_methods(const CheckSpec& spec, std::size_t e, CaseResult& result) {
+  struct Values { const CaseRun* first = nullptr; std::map<std::string, std::vector<double>> smooth, nonsmooth; };
+  std::map<std::size_t, Values> rows;
+  for (const CaseRun& run : result.runs) {
+    if (!first_threads(spec, run)) continue;
+    Values& row = rows[run.row];
+    if (!row.first) row.first = &run;
+    for (const auto& [name, value] : run.values) (run.method == Method::sdem ? row.smooth : row.nonsmooth)[name].push_back(value);
+  }
   const Expectation& x = spec.expect[e];
-  for (const CaseRun& a : result.runs)
-    for (const CaseRun& b : result.runs) {
-      if (a.method != Method::sdem || b.method != Method::ndem || a.row != b.row || a.seed != b.seed || !first_threads(spec, a) ||
-          !first_threads(spec, b))
-        continue;
-      Scope scope;
-      scope.numbers = a.parameters;
-      for (const auto& [name, value] : a.values)
-        if (const auto other = b.values.find(name); other != b.values.end()) scope.methods[name] = {value, other->second};
-      if (counts(x, e, scope)) result.verdicts.push_back(verdict_of(spec, read(x, e, scope), "both", a.label));
-    }
+  for (const auto& [number, row] : rows) {
+    Scope scope;
+    scope.numbers = row.first->parameters;
+    for (const auto& [name, values] : row.smooth)
+      if (const auto other = row.nonsmooth.find(name); other != row.nonsmooth.end()) scope.methods[name] = {mean_of(values), mean_of(other->second)};
+    if (!counts(x, e, scope)) continue;
+    Verdict v = verdict_of(spec, read(x, e, scope), "both", spec.vary.empty() ? "" : label_of(spec, number, 0));
+    if (spec.seeds > 1) v.label = v.label.substr(0, v.label.find(", seed"));
+    result.verdicts.push_back(std::move(v));
+  }
 }
 
 void judge(const CheckCase& c, CaseResult& result) {
