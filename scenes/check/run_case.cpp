@@ -71,9 +71,12 @@ void simulate(const Scene& scene, const std::function<bool()>& stop, CaseRun& ou
   }
 }
 
+std::string label_of_row(const CheckSpec& spec, std::size_t row) {
+  return spec.vary.empty() ? "" : fmt::format("{} = {}", spec.vary.front().first, spec.vary.front().second[row]);
+}
+
 std::string label_of(const CheckSpec& spec, std::size_t row, int seed) {
-  std::string label;
-  if (!spec.vary.empty()) label = fmt::format("{} = {}", spec.vary.front().first, spec.vary.front().second[row]);
+  std::string label = label_of_row(spec, row);
   if (spec.seeds > 1) label += fmt::format("{}seed {}", label.empty() ? "" : ", ", seed);
   return label;
 }
@@ -162,9 +165,7 @@ void judge_seeds(const CheckSpec& spec, std::size_t e, CaseResult& result) {
     for (const auto& [run, reading] : group) measured.push_back(reading.measured);
     Reading mean = group.front().second;
     mean.measured = mean_of(measured);
-    Verdict v = verdict_of(spec, mean, method_word(key.first), label_of(spec, key.second, 0));
-    if (spec.vary.empty()) v.label.clear();
-    else v.label = v.label.substr(0, v.label.find(", seed"));
+    Verdict v = verdict_of(spec, mean, method_word(key.first), label_of_row(spec, key.second));
     v.confidence = confidence_of(measured);
     v.count = measured.size();
     result.verdicts.push_back(std::move(v));
@@ -210,10 +211,7 @@ void judge_methods(const CheckSpec& spec, std::size_t e, CaseResult& result) {
     scope.numbers = row.first->parameters;
     for (const auto& [name, values] : row.smooth)
       if (const auto other = row.nonsmooth.find(name); other != row.nonsmooth.end()) scope.methods[name] = {mean_of(values), mean_of(other->second)};
-    if (!counts(x, e, scope)) continue;
-    Verdict v = verdict_of(spec, read(x, e, scope), "both", spec.vary.empty() ? "" : label_of(spec, number, 0));
-    if (spec.seeds > 1) v.label = v.label.substr(0, v.label.find(", seed"));
-    result.verdicts.push_back(std::move(v));
+    if (counts(x, e, scope)) result.verdicts.push_back(verdict_of(spec, read(x, e, scope), "both", label_of_row(spec, number)));
   }
 }
 
