@@ -42,27 +42,29 @@ template <class R, class Where> QuadT<R> load_quads(const Where& where) {
   }
 }
 
-// x y z 0 of each lane.
-[[gnu::always_inline]] inline void as_rows(const Four& x, const Four& y, const Four& z, Four* out) {
-  const Four none{};
+// x y z s of each of four lanes.
+[[gnu::always_inline]] inline void as_rows(const Four& x, const Four& y, const Four& z, const Four& s, Four* out) {
   const Four xy = __builtin_shufflevector(x, y, 0, 4, 2, 6), xy2 = __builtin_shufflevector(x, y, 1, 5, 3, 7);
-  const Four z0 = __builtin_shufflevector(z, none, 0, 4, 2, 6), z2 = __builtin_shufflevector(z, none, 1, 5, 3, 7);
-  out[0] = __builtin_shufflevector(xy, z0, 0, 1, 4, 5);
-  out[1] = __builtin_shufflevector(xy2, z2, 0, 1, 4, 5);
-  out[2] = __builtin_shufflevector(xy, z0, 2, 3, 6, 7);
-  out[3] = __builtin_shufflevector(xy2, z2, 2, 3, 6, 7);
+  const Four zs = __builtin_shufflevector(z, s, 0, 4, 2, 6), zs2 = __builtin_shufflevector(z, s, 1, 5, 3, 7);
+  out[0] = __builtin_shufflevector(xy, zs, 0, 1, 4, 5);
+  out[1] = __builtin_shufflevector(xy2, zs2, 0, 1, 4, 5);
+  out[2] = __builtin_shufflevector(xy, zs, 2, 3, 6, 7);
+  out[3] = __builtin_shufflevector(xy2, zs2, 2, 3, 6, 7);
 }
+// x y z 0 of each lane.
 template <class R> void as_rows(const Vec3T<R>& v, Four* out) {
   if constexpr (lanes<R> == 1) {
     *out = Four{v.x, v.y, v.z, 0};
   } else if constexpr (lanes<R> == 2) {
     for (int k = 0; k < 2; ++k) out[k] = Four{v.x[k], v.y[k], v.z[k], 0};
   } else if constexpr (lanes<R> == 4) {
-    as_rows(Four(v.x), Four(v.y), Four(v.z), out);
+    as_rows(Four(v.x), Four(v.y), Four(v.z), Four{}, out);
   } else {
     const Eight x(v.x), y(v.y), z(v.z);
-    as_rows(__builtin_shufflevector(x, x, 0, 1, 2, 3), __builtin_shufflevector(y, y, 0, 1, 2, 3), __builtin_shufflevector(z, z, 0, 1, 2, 3), out);
-    as_rows(__builtin_shufflevector(x, x, 4, 5, 6, 7), __builtin_shufflevector(y, y, 4, 5, 6, 7), __builtin_shufflevector(z, z, 4, 5, 6, 7), out + 4);
+    const auto low = [](const Eight& a) { return __builtin_shufflevector(a, a, 0, 1, 2, 3); };
+    const auto high = [](const Eight& a) { return __builtin_shufflevector(a, a, 4, 5, 6, 7); };
+    as_rows(low(x), low(y), low(z), Four{}, out);
+    as_rows(high(x), high(y), high(z), Four{}, out + 4);
   }
 }
 
@@ -76,13 +78,9 @@ template <class R, class Where> void store_quads(const QuadT<R>& q, const Where&
 #if defined(__AVX__)
     const auto put = [&](int k, Four row) { _mm256_store_pd(&where(k)->v.x, row); };
     if constexpr (lanes<R> == 4) {
-      const Four x(q.v.x), y(q.v.y), z(q.v.z), s(q.s);
-      const Four xy = __builtin_shufflevector(x, y, 0, 4, 2, 6), xy2 = __builtin_shufflevector(x, y, 1, 5, 3, 7);
-      const Four zs = __builtin_shufflevector(z, s, 0, 4, 2, 6), zs2 = __builtin_shufflevector(z, s, 1, 5, 3, 7);
-      put(3, __builtin_shufflevector(xy2, zs2, 2, 3, 6, 7));
-      put(2, __builtin_shufflevector(xy, zs, 2, 3, 6, 7));
-      put(1, __builtin_shufflevector(xy2, zs2, 0, 1, 4, 5));
-      put(0, __builtin_shufflevector(xy, zs, 0, 1, 4, 5));
+      Four row[4];
+      as_rows(Four(q.v.x), Four(q.v.y), Four(q.v.z), Four(q.s), row);
+      for (int k = 3; k >= 0; --k) put(k, row[k]);
     }
 #if defined(__AVX512F__)
     if constexpr (lanes<R> == 8) {
