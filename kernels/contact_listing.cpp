@@ -10,7 +10,7 @@ namespace {
 struct Listed {
   std::vector<Index> neighbour;                              // rows of Neighbours
   std::vector<Index> end;                                    // by particle of the block
-  Index crossing = 0;                                        // contacts with a particle of another block
+  Index crossing = 0;                                        // sums of particles of another block
 };
 
 bool in_one_block(std::size_t p, std::size_t q) { return p / contact_block == q / contact_block; }
@@ -60,7 +60,7 @@ void ContactListing<Space>::operator()(Parallel parallel, Read<&Search::list_due
         const bool near = dot(d, d) < reach * reach;
         l.neighbour[count] = e;
         count += near;
-        l.crossing += near & !in_one_block(p, q);
+        l.crossing += columns.sums & near & !in_one_block(p, q);
       }
       l.end[p - begin] = static_cast<Index>(count);
     }
@@ -85,7 +85,7 @@ void ContactListing<Space>::operator()(Parallel parallel, Read<&Search::list_due
   resize_for_overwrite(sums->torque.data, columns.sums && columns.torque ? n + from.back() : 0);
   resize_for_overwrite(incidence->first.data, n + 1);
   incidence->first.data[n] = static_cast<Index>(total);
-  resize_for_overwrite(halo->particle.data, columns.sums ? from.back() : 0);
+  resize_for_overwrite(halo->particle.data, from.back());
   parallel.chunks(n, contact_block, [&](std::size_t k, std::size_t begin, std::size_t end) {
     const Listed& l = listed[k];
     Index c = offset[k], in = from[k];
@@ -103,7 +103,7 @@ void ContactListing<Space>::operator()(Parallel parallel, Read<&Search::list_due
       }
     }
   });
-  if (columns.sums) sort_by_block(*halo.table, *of_halo.table);
+  sort_by_block(*halo.table, *of_halo.table);
 }
 
 template struct ContactListing<OpenSpace>;
