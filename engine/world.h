@@ -72,7 +72,7 @@ struct ContactMemory {
 struct Contacts {
   Column<Index>  i{"i", "1"}, j{"j", "1"};                         // rows of Particles
   Column<Index>  partner{"partner", "1"};                          // id[j]
-  Column<Index>  sum_of_j{"sum_of_j", "1"};                        // what acts on j: its place in the block of i, or contact_block + place in the block's halo
+  Column<Index>  sum_of_j{"sum_of_j", "1"};                        // place of j in the block of i, or contact_block + place in its halo
   Column<Vec3>   force{"contact_force", "N"};                      // on i, -force on j; zero where the pair does not touch
   Column<Vec3>   spring{"tangential_spring", "m"};                 // history: displacement in the tangent plane
   Column<Vec3>   rolling{"rolling_moment", "N m"};                 // on i, the opposite on j; history where it is elastic

@@ -67,8 +67,8 @@ void look_at(const Pairs& pairs, const PairColumns& c, const Lanes& row, PairSta
 
 // Adds what contacts do to the sums of their particles: the force, its torque about either centre, and the rolling moment on i.
 template <class Law, class R, class Lanes>
-void add_to_sums(const Vec3T<R>& force, const Vec3T<R>& torque_i, const Vec3T<R>& torque_j, const Vec3T<R>& rolling, const PairColumns& c, const Lanes& row,
-                 const BlockSums& sums) {
+void add_to_sums(const Vec3T<R>& force, const Vec3T<R>& torque_i, const Vec3T<R>& torque_j, const Vec3T<R>& rolling,
+                 const PairColumns& c, const Lanes& row, const BlockSums& sums) {
   constexpr std::size_t width = lanes<R>;
   Four f[width], t_i[width], t_j[width];
   as_rows(force, f);

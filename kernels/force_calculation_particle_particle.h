@@ -73,7 +73,8 @@ template <class Law, class Kinds, class Space> struct ForceCalculationParticlePa
   PairForces<Law, Kinds, Space> pairs;
   PairLoop<PairForces<Law, Kinds, Space>> loop;
 
-  void operator()(Parallel parallel, Read<&Incidence::first> first, Read<&HaloIncidence::from> halo_from, Read<&Halo::particle> halo_particle, Read<&Contacts::i> i, Read<&Contacts::j> j,
+  void operator()(Parallel parallel, Read<&Incidence::first> first, Read<&HaloIncidence::from> halo_from,
+                  Read<&Halo::particle> halo_particle, Read<&Contacts::i> i, Read<&Contacts::j> j,
                   Read<&Contacts::sum_of_j> sum_of_j, Read<&Particles::position> position,
                   Read<&Particles::velocity> velocity, If<Law::rotates, Read<&Particles::angular_velocity>> spin,
                   If<various, Read<&Particles::radius>> radius, If<various, Read<&Particles::mass>> mass,

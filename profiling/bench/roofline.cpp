@@ -20,8 +20,8 @@ struct KernelCost {
 //           double 8, Index 4). Columns of particles that contacts gather count once per particle: neighbours share cache lines.
 //   flops   additions, subtractions, multiplications, comparisons that select; roots: divisions and square roots.
 // A pack of contacts takes the roots of sliding if one of its lanes slides: counted as in a flowing bed, always. Loops whose
-// length depends on the packing: 85 particles in 27 cells, two neighbours for each listed pair (a candidate), one candidate in six between two
-// blocks (a row of the halo).
+// length depends on the packing: 85 particles in 27 cells, two neighbours for each listed pair (a candidate), one
+// candidate in six between two blocks (a row of the halo).
 constexpr KernelCost costs[] = {
     // name, when, bytes, flops, roots
     {"integrate", every_step, {.particle = 256}, {.particle = 48}, {.particle = 3}},

@@ -1,4 +1,4 @@
-// Sums of contact forces across blocks of particles: nothing is lost at a boundary, and no number of threads changes a bit.
+// Sums of contact forces across blocks of particles: nothing is lost at a boundary, and no set of vector instructions changes a bit.
 #include <gtest/gtest.h>
 #include "kernels/broadphase.h"
 #include "kernels/contact_listing.h"
