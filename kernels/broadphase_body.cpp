@@ -191,6 +191,8 @@ void ContactGeometryBody<ahead>::operator()(Parallel parallel, Read<&BodyContact
   for (std::size_t g = 0; g < shape.size(); ++g) world[g] = pose[body[g]] * local[g];
   parallel(geometry.size(), 1024, [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) {
+      const Index later = particle[std::min(c + 8, end - 1)];   // as in kernels/force_calculation_particle_body.h
+      __builtin_prefetch(&position[later]), __builtin_prefetch(&radius[later]);
       if (slot[c] != 0) continue;                            // a mesh: its first slot does it for all
       const Index g = geometry[c], p = particle[c];
       const Vec3 x = to_local(world[g], position[p]);

@@ -2,6 +2,7 @@
 //
 // The body is a partner of infinite mass unless it is dynamic; the curvature of its surface enters R_eff.
 #pragma once
+#include <algorithm>
 #include <vector>
 #include "engine/access.h"
 #include "kernels/chosen_law.h"
@@ -33,6 +34,10 @@ template <class Law> struct ForceCalculationParticleBody {
                   If<Law::keeps_rolling, Update<&BodyContacts::rolling>> rolling,
                   If<Law::remembers, Update<&BodyContacts::memory>> memory) const {
     for (std::size_t c = rows.first; c < rows.last; ++c) {
+      const Index later = particle[std::min(c + 8, rows.last - 1)];   // asked for early: which particles touch walls, no processor guesses
+      __builtin_prefetch(&position[later]), __builtin_prefetch(&velocity[later]);
+      if constexpr (Law::rotates) __builtin_prefetch(&spin[later]);
+      __builtin_prefetch(&radius[later]), __builtin_prefetch(&mass[later]), __builtin_prefetch(&material[later]);
       if (!(overlap[c] > 0)) {
         clear_all(c, force, torque, rolling_torque, spring, rolling, memory);
         continue;
