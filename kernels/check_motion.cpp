@@ -53,23 +53,20 @@ void CheckMotion<Space>::operator()(Parallel parallel, Read<&Clock::step> step, 
     const Vec3 d = space.shortest(position[p] - from[p]);
     return dot(d, d);
   };
-  // A contact lasts tens of steps: half a radius in one step is far beyond any sound motion.
   const auto sound_speed = [&](std::size_t p) {
     const double reach_of_step = 0.5 * radius[p];
     return dot(velocity[p], velocity[p]) * time_step * time_step <= reach_of_step * reach_of_step;
   };
-  const auto in_margin = [&](std::size_t p) { return moved2(p, listed) <= list_margin[p] * list_margin[p]; };
   // Nonsmooth DEM finds what a step will touch before it is made: its particles may go as far as they like, if the lists know.
   const auto goes_on_well = [&](std::size_t p) { return std::sqrt(moved2(p, listed)) + time_step * norm(velocity[p]) + ahead.fall <= list_margin[p]; };
 
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  const MotionWatch<Space> watch{space, time_step, bounded ? bounds : Bounds{{-infinite, -infinite, -infinite}, {infinite, infinite, infinite}},
+                                 position.data(), velocity.data(), listed.data(), radius.data(), list_margin.data()};
   std::vector<Seen> seen(chunks);
   parallel.chunks(n, chunk, [&](std::size_t k, std::size_t begin, std::size_t end) {
     Seen s;
-    bool all_well = true, all_in_margin = true;              // no branch while all is well; NaN fails every comparison
-    for (std::size_t p = begin; p < end && !ahead.watched; ++p) {
-      all_in_margin &= in_margin(p);
-      all_well &= sound_speed(p) & (!bounded || inside(bounds, position[p]));
-    }
+    auto [all_in_margin, all_well] = ahead.watched ? AllOf{true, true} : loop(watch, begin, end);
     for (std::size_t p = begin; p < end && ahead.watched; ++p) {
       all_in_margin &= goes_on_well(p);
       all_well &= !bounded || inside(bounds, position[p]);

@@ -8,6 +8,7 @@
 #include <limits>
 #include "engine/access.h"
 #include "engine/periodic.h"
+#include "engine/vector_path.h"
 
 namespace skred {
 
@@ -26,6 +27,24 @@ struct StepAhead {
   double widest = std::numeric_limits<double>::infinity();   // [m] widest margin that the space allows
 };
 
+// The part of the check that every step makes of every particle: one loop, compiled once per set of vector instructions.
+struct AllOf { bool in_margin, well; };
+template <class Space> struct MotionWatch {
+  Space space;
+  double time_step;              // h [s]
+  Bounds bounds;                 // [m] infinite where there are none
+  const Vec3 *position, *velocity, *listed;
+  const double *radius, *list_margin;
+
+  // Whether of particles [first, last) all are within their margins, and all within bounds and of a sound speed: less than half a
+  // radius in a step - a contact lasts tens of steps.
+  template <VectorPath path> static AllOf run(const MotionWatch&, std::size_t first, std::size_t last);
+};
+template <class Space> using MotionLoop = AllOf (*)(const MotionWatch<Space>&, std::size_t first, std::size_t last);
+template <class Space> MotionLoop<Space> motion_loop(VectorPath path) {
+  return for_path(path, []<VectorPath p>() -> MotionLoop<Space> { return &MotionWatch<Space>::template run<p>; });
+}
+
 template <class Space> struct CheckMotion {
   static constexpr const char* name = "check_motion";
 
@@ -37,6 +56,7 @@ template <class Space> struct CheckMotion {
   bool stop_outside;             // a particle outside is trouble
   StepAhead ahead;
   int reorder_every;             // steps: then a search is due too (kernels/reorder.h)
+  MotionLoop<Space> loop = motion_loop<Space>(VectorPath::scalar);
 
   void operator()(Parallel parallel, Read<&Clock::step> step, Read<&Particles::id> id, Read<&Particles::position> position, Read<&Particles::velocity> velocity,
                   Read<&Particles::radius> radius, Update<&Particles::searched> searched, Update<&Particles::search_margin> search_margin,

@@ -1,6 +1,5 @@
 // The hot loops for one set of vector instructions: compiled once per path, with SKRED_PATH its name and the
 // compiler flags that go with it (CMakeLists.txt). Nothing here may be used by other translation units but run<SKRED_PATH>.
-#include "kernels/broadphase_loop.h"
 #include "kernels/contact_sweep_loop.h"
 #include "kernels/force_calculation_loop.h"
 #include "engine/periodic.h"
@@ -31,8 +30,5 @@ SKRED_INSTANTIATE_SWEEP(false, true, false, false)
 SKRED_INSTANTIATE_SWEEP(false, true, false, true)
 SKRED_INSTANTIATE_SWEEP(false, true, true, false)
 SKRED_INSTANTIATE_SWEEP(false, true, true, true)
-
-template std::size_t Surroundings<OpenSpace>::near<VectorPath::SKRED_PATH>(const Surroundings&, const Vec3&, double, const Places*, const Places*, Index*);
-template std::size_t Surroundings<PeriodicSpace>::near<VectorPath::SKRED_PATH>(const Surroundings&, const Vec3&, double, const Places*, const Places*, Index*);
 
 }  // namespace skred
