@@ -10,22 +10,24 @@
 
 namespace skred {
 
-template <bool contacts, bool body_contacts, bool rotates> struct ForceApplicationParticle {
+template <bool contacts, bool body_contacts, bool rotates, class Inertia> struct ForceApplicationParticle {
   static constexpr const char* name = "force_application_particle";
 
   Vec3 gravity;       // [m/s^2]
   double time_step;   // h [s]; 0: forces only
+  Inertia inertia;
 
   void operator()(Parallel parallel, If<contacts, Read<&HaloIncidence::to>> halo_to, If<contacts, Read<&Halo::order>> halo_order,
                   If<contacts, Read<&Halo::particle>> halo_particle, If<contacts, Update<&ContactSums::force>> force_sum,
                   If<contacts && rotates, Update<&ContactSums::torque>> torque_sum, If<body_contacts, Read<&BodyIncidence::first>> first_body,
                   If<body_contacts, Read<&BodyContacts::force>> body_force,
-                  If<body_contacts && rotates, Read<&BodyContacts::torque>> body_torque, Read<&Particles::mass> mass,
-                  If<rotates, Read<&Particles::radius>> radius, Update<&Particles::force> force,
+                  If<body_contacts && rotates, Read<&BodyContacts::torque>> body_torque, If<!Inertia::alike, Read<&Particles::mass>> mass,
+                  If<rotates && !Inertia::alike, Read<&Particles::radius>> radius, Update<&Particles::force> force,
                   Update<&Particles::previous_force> previous_force, If<rotates, Update<&Particles::torque>> torque,
                   If<rotates, Update<&Particles::previous_torque>> previous_torque, Update<&Particles::velocity> velocity,
                   If<rotates, Update<&Particles::angular_velocity>> spin) const {
-    const std::size_t n = mass.size();
+    const std::size_t n = force.size();
+    const Inertia of = inertia;                              // a copy, which no column can lie on: quotients are taken once
     parallel.chunks(n, contact_block, [&](std::size_t block, std::size_t begin, std::size_t end) {
       if constexpr (contacts)
         for (Index k = halo_to[block]; k < halo_to[block + 1]; ++k) {
@@ -42,14 +44,14 @@ template <bool contacts, bool body_contacts, bool rotates> struct ForceApplicati
             f += body_force[c];
             if constexpr (rotates) t += body_torque[c];
           }
-        f += mass[p] * gravity;
+        const double m = of.mass_of(mass, p);
+        f += m * gravity;
 
-        velocity[p] += (0.5 * time_step / mass[p]) * (f - mean(force[p], previous_force[p]));
+        velocity[p] += (0.5 * time_step / m) * (f - mean(force[p], previous_force[p]));
         previous_force[p] = time_step > 0 ? force[p] : f;
         force[p] = f;
         if constexpr (rotates) {
-          const double inertia = 0.4 * mass[p] * radius[p] * radius[p];
-          spin[p] += (0.5 * time_step / inertia) * (t - mean(torque[p], previous_torque[p]));
+          spin[p] += (0.5 * time_step / of.moment_of(mass, radius, p)) * (t - mean(torque[p], previous_torque[p]));
           previous_torque[p] = time_step > 0 ? torque[p] : t;
           torque[p] = t;
         }

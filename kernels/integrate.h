@@ -15,6 +15,7 @@
 // Nonsmooth DEM has solved for v(n+1) when it gets here: x(n+1) = x(n) + h v(n+1), symplectic Euler.
 #pragma once
 #include "engine/access.h"
+#include "kernels/inertia.h"
 
 namespace skred {
 
@@ -22,33 +23,37 @@ enum class Scheme { velocity_verlet, symplectic_euler };
 
 constexpr Vec3 mean(const Vec3& a, const Vec3& b) { return 0.5 * (a + b); }
 
-template <Scheme scheme, bool rotates, bool oriented, class Space> struct Integrate {
+template <Scheme scheme, bool rotates, bool oriented, class Space, class Inertia> struct Integrate {
   static constexpr const char* name = "integrate";
   static constexpr std::size_t grain = 1024;
 
   Space space;
   double time_step;   // h [s]
+  Inertia inertia;
 
   static constexpr bool by_force = scheme == Scheme::velocity_verlet;
 
-  void operator()(Rows<Particles> rows, If<by_force, Read<&Particles::mass>> mass, If<by_force, Read<&Particles::force>> force,
-                  If<by_force, Read<&Particles::previous_force>> previous_force, If<by_force && rotates, Read<&Particles::radius>> radius,
+  void operator()(Rows<Particles> rows, If<by_force && !Inertia::alike, Read<&Particles::mass>> mass,
+                  If<by_force, Read<&Particles::force>> force, If<by_force, Read<&Particles::previous_force>> previous_force,
+                  If<by_force && rotates && !Inertia::alike, Read<&Particles::radius>> radius,
                   If<by_force && rotates, Read<&Particles::torque>> torque,
                   If<by_force && rotates, Read<&Particles::previous_torque>> previous_torque, Update<&Particles::position> position,
                   Update<&Particles::velocity> velocity, If<rotates, Update<&Particles::angular_velocity>> spin,
                   If<oriented, Update<&Particles::orientation>> orientation) const {
     const double h = time_step;
+    const Inertia of = inertia;                              // a copy, which no column can lie on: quotients are taken once
     for (std::size_t p = rows.first; p < rows.last; ++p) {
       if constexpr (by_force) {
-        const Vec3 a = (1 / mass[p]) * force[p];
+        const double m = of.mass_of(mass, p);
+        const Vec3 a = (1 / m) * force[p];
         position[p] = space.wrap(position[p] + h * velocity[p] + (0.5 * h * h) * a);
-        velocity[p] += (0.5 * h / mass[p]) * (force[p] + mean(force[p], previous_force[p]));
+        velocity[p] += (0.5 * h / m) * (force[p] + mean(force[p], previous_force[p]));
         if constexpr (rotates) {
-          const double inertia = 0.4 * mass[p] * radius[p] * radius[p];
-          const Vec3 alpha = (1 / inertia) * torque[p];
+          const double moment = of.moment_of(mass, radius, p);
+          const Vec3 alpha = (1 / moment) * torque[p];
           if constexpr (oriented)
             orientation[p] = normalized(rotation_by(h * spin[p] + (0.5 * h * h) * alpha) * orientation[p]);
-          spin[p] += (0.5 * h / inertia) * (torque[p] + mean(torque[p], previous_torque[p]));
+          spin[p] += (0.5 * h / moment) * (torque[p] + mean(torque[p], previous_torque[p]));
         }
       } else {
         position[p] = space.wrap(position[p] + h * velocity[p]);

@@ -57,22 +57,29 @@ void add_rigid_collision(Task& task, const World& w, const Effects& e, double ma
 
 namespace {
 
-template <Scheme scheme, class Space> void add_integrate_in(Task& task, const Effects& e, const Space& space, double h) {
-  if (e.orientation) task.add(Integrate<scheme, true, true, Space>{space, h});
-  else if (e.rotation) task.add(Integrate<scheme, true, false, Space>{space, h});
-  else task.add(Integrate<scheme, false, false, Space>{space, h});
+template <Scheme scheme, class Space, class Inertia>
+void add_integrate_in(Task& task, const Effects& e, const Space& space, double h, const Inertia& inertia) {
+  if (e.orientation) task.add(Integrate<scheme, true, true, Space, Inertia>{space, h, inertia});
+  else if (e.rotation) task.add(Integrate<scheme, true, false, Space, Inertia>{space, h, inertia});
+  else task.add(Integrate<scheme, false, false, Space, Inertia>{space, h, inertia});
 }
 
-template <Scheme scheme> void add_integrate_by(Task& task, const Model& m, const Effects& e, double h) {
-  if (m.periodic) add_integrate_in<scheme>(task, e, *m.periodic, h);
-  else add_integrate_in<scheme>(task, e, OpenSpace{}, h);
+template <Scheme scheme, class Inertia> void add_integrate_by(Task& task, const Model& m, const Effects& e, double h, const Inertia& inertia) {
+  if (m.periodic) add_integrate_in<scheme>(task, e, *m.periodic, h, inertia);
+  else add_integrate_in<scheme>(task, e, OpenSpace{}, h, inertia);
 }
 
 }  // namespace
 
-void add_integrate(Task& task, const Model& m, const Effects& e, double h) {
-  if (m.method == Method::ndem) add_integrate_by<Scheme::symplectic_euler>(task, m, e, h);
-  else add_integrate_by<Scheme::velocity_verlet>(task, m, e, h);
+Inertia<true> inertia_of_all(const World& w) {
+  const Particles& p = std::get<Particles>(w);
+  return {p.mass.data[0], p.radius.data[0]};
+}
+
+void add_integrate(Task& task, const World& w, const Model& m, const Effects& e, double h) {
+  if (m.method == Method::ndem) add_integrate_by<Scheme::symplectic_euler>(task, m, e, h, Inertia<false>{});
+  else if (e.alike) add_integrate_by<Scheme::velocity_verlet>(task, m, e, h, inertia_of_all(w));
+  else add_integrate_by<Scheme::velocity_verlet>(task, m, e, h, Inertia<false>{});
 }
 
 }  // namespace skred

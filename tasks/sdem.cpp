@@ -7,10 +7,18 @@ namespace skred {
 
 namespace {
 
-template <bool contacts, bool bodies> void add_application(Task& task, const Model& m, const Effects& e, double h) {
+template <bool contacts, bool bodies, class Inertia>
+void add_application(Task& task, const Model& m, const Effects& e, double h, const Inertia& inertia) {
   // Torques exist where a law makes them; an orientation that is only watched has none.
-  if (e.friction || e.rolling) task.add(ForceApplicationParticle<contacts, bodies, true>{m.gravity, h});
-  else task.add(ForceApplicationParticle<contacts, bodies, false>{m.gravity, h});
+  if (e.friction || e.rolling) task.add(ForceApplicationParticle<contacts, bodies, true, Inertia>{m.gravity, h, inertia});
+  else task.add(ForceApplicationParticle<contacts, bodies, false, Inertia>{m.gravity, h, inertia});
+}
+
+template <class Inertia> void add_application(Task& task, const Model& m, const Effects& e, double h, const Inertia& inertia) {
+  if (e.contacts && e.bodies) add_application<true, true>(task, m, e, h, inertia);
+  else if (e.contacts) add_application<true, false>(task, m, e, h, inertia);
+  else if (e.bodies) add_application<false, true>(task, m, e, h, inertia);
+  else add_application<false, false>(task, m, e, h, inertia);
 }
 
 }  // namespace
@@ -20,7 +28,7 @@ void add_sdem(Task& task, const World& world, const Model& model, bool initial) 
   const double h = initial ? 0 : model.time_step;
 
   const bool torques = e.friction || e.rolling;
-  add_integrate(task, model, e, h);
+  add_integrate(task, world, model, e, h);
   if (e.moving_bodies) task.add(MoveBodies{model.pieces, model.bodies_at_start, model.time_step, h});
   if (!initial) {
     add_crossings(task, model);
@@ -32,10 +40,8 @@ void add_sdem(Task& task, const World& world, const Model& model, bool initial) 
   add_rigid_collision(task, world, e, 0, columns.spring);
   add_force_calculation(task, world, model, e, h);
 
-  if (e.contacts && e.bodies) add_application<true, true>(task, model, e, h);
-  else if (e.contacts) add_application<true, false>(task, model, e, h);
-  else if (e.bodies) add_application<false, true>(task, model, e, h);
-  else add_application<false, false>(task, model, e, h);
+  if (e.alike) add_application(task, model, e, h, inertia_of_all(world));
+  else add_application(task, model, e, h, Inertia<false>{});
   if (e.rigid_contacts) task.add(ForceApplicationBody<true>{model.gravity, h});
   else if (e.dynamic_bodies) task.add(ForceApplicationBody<false>{model.gravity, h});
   if (e.energy) add_energy_ledger(task, model, e, h);

@@ -1,6 +1,7 @@
 // tasks/steps.h - the steps that tasks are made of.
 #pragma once
 #include "kernels/contact_listing.h"
+#include "kernels/inertia.h"
 #include "tasks/model.h"
 #include "tasks/task.h"
 
@@ -15,7 +16,8 @@ void add_ndem(Task&, const World&, const Model&, bool initial = false);
 
 // What both share. `columns` of the contacts; of those, springs, memories and as a rule rolling moments are history.
 void add_collision(Task&, const World&, const Model&, const Effects&, const ContactColumns& columns, double time_step);
-void add_integrate(Task&, const Model&, const Effects&, double time_step);
+void add_integrate(Task&, const World&, const Model&, const Effects&, double time_step);
+Inertia<true> inertia_of_all(const World&);      // where the particles are alike
 
 // Particles that are removed and created (at the head of what follows positions), and those that cross an area (after they moved).
 void add_flow(Task&, const Model&);
