@@ -18,15 +18,9 @@
 #include <array>
 #include <cstddef>
 #include "engine/column.h"
-#include "engine/vec3.h"
+#include "engine/quad.h"
 
 namespace skred {
-
-// A vector and a number, on half a cache line.
-struct alignas(32) Quad {
-  Vec3 v;
-  double s = 0;
-};
 
 // What the sweeps read and write of a body: 64 bytes. A body that nothing can move has zeros for 1/m and 1/I.
 struct alignas(64) SolverBody {

@@ -1,7 +1,7 @@
 // engine/pack_quads.h - quads read and written as packs, from any places in memory: a load and a store per lane, and shuffles.
 #pragma once
-#include "engine/contact_rows.h"
 #include "engine/pack.h"
+#include "engine/quad.h"
 
 namespace skred {
 

@@ -10,6 +10,7 @@
 #include "engine/energy.h"
 #include "engine/geometry/shape.h"
 #include "engine/vec3.h"
+#include "engine/vector_path.h"
 
 namespace skred {
 
@@ -72,14 +73,14 @@ struct ContactMemory {
 struct Contacts {
   Column<Index>  i{"i", "1"}, j{"j", "1"};                         // rows of Particles
   Column<Index>  partner{"partner", "1"};                          // id[j]
-  Column<Index>  sum_of_j{"sum_of_j", "1"};                        // place of j in the block of i, or contact_block + place in its halo
+  Column<Index>  place_of_j{"place_of_j", "1"};                    // in the block of i, or contact_block + place among its guests
   Column<Vec3>   force{"contact_force", "N"};                      // on i, -force on j; zero where the pair does not touch
   Column<Vec3>   spring{"tangential_spring", "m"};                 // history: displacement in the tangent plane
   Column<Vec3>   rolling{"rolling_moment", "N m"};                 // on i, the opposite on j; history where it is elastic
   Column<ContactMemory> memory{"contact_memory", "m, N, N m"};     // history
   std::size_t rows() const { return i.data.size(); }
   static constexpr auto columns() {
-    return std::tuple{&Contacts::i, &Contacts::j, &Contacts::partner, &Contacts::sum_of_j, &Contacts::force,
+    return std::tuple{&Contacts::i, &Contacts::j, &Contacts::partner, &Contacts::place_of_j, &Contacts::force,
                       &Contacts::spring, &Contacts::rolling, &Contacts::memory};
   }
 };
@@ -110,8 +111,7 @@ struct Incidence {
 inline constexpr std::size_t contact_block = 512;
 inline constexpr std::size_t blocks_of(std::size_t particles) { return (particles + contact_block - 1) / contact_block; }
 
-// Row p of particle p: what the contacts of its block do to it. Behind these the halo: a row for each contact whose j lies in
-// another block, with what it does to j.
+// What the contacts of its block do to particle p.
 struct ContactSums {
   Column<Vec3> force{"sum_of_contact_forces", "N"};
   Column<Vec3> torque{"sum_of_contact_torques", "N m"};            // about the particle's centre
@@ -119,19 +119,30 @@ struct ContactSums {
   static constexpr auto columns() { return std::tuple{&ContactSums::force, &ContactSums::torque}; }
 };
 
-// The rows of the halo, counted from 0, in the order of their contacts.
-struct Halo {
-  Column<Index> particle{"halo_particle", "1"};                    // row of Particles: the j
-  Column<Index> order{"halo_order", "1"};                          // rows of the halo by the block of their j, then ascending
+// What contacts do to a particle, on a cache line of its own.
+struct alignas(64) PairSum { Four force, torque; };                // x y z [N], [N m], and a number of no use
+inline Vec3 vector(const Four& row) { return {row[0], row[1], row[2]}; }
+
+// Particles of other blocks that the contacts of a block meet: one row each, by block, then in the order in which they are met.
+struct Guests {
+  Column<Index> particle{"guest", "1"};                            // row of Particles
+  Column<Index> halo_row{"halo_row", "1"};                         // its row of Halo
   std::size_t rows() const { return particle.data.size(); }
-  static constexpr auto columns() { return std::tuple{&Halo::particle, &Halo::order}; }
+  static constexpr auto columns() { return std::tuple{&Guests::particle, &Guests::halo_row}; }
 };
-// One row per block and one more: rows [from[k], from[k+1]) of the halo are of contacts of block k, and order[to[k] .. to[k+1]) are
-// those of contacts of other blocks with a particle of block k.
+// The same, by the block in which they are at home, then as in Guests: what contacts of other blocks do to its particles.
+struct Halo {
+  Column<Index> particle{"halo_particle", "1"};                    // row of Particles
+  Column<PairSum> sum{"halo_sum", "N, N m"};
+  std::size_t rows() const { return particle.data.size(); }
+  static constexpr auto columns() { return std::tuple{&Halo::particle, &Halo::sum}; }
+};
+// One row per block and one more: contacts of block k meet rows [guests[k], guests[k + 1]) of Guests, and rows
+// [halo[k], halo[k + 1]) of Halo are of its particles.
 struct HaloIncidence {
-  Column<Index> from{"first_halo_row", "1"}, to{"first_in_halo_order", "1"};
-  std::size_t rows() const { return from.data.size(); }
-  static constexpr auto columns() { return std::tuple{&HaloIncidence::from, &HaloIncidence::to}; }
+  Column<Index> guests{"first_guest", "1"}, halo{"first_halo_row", "1"};
+  std::size_t rows() const { return guests.data.size(); }
+  static constexpr auto columns() { return std::tuple{&HaloIncidence::guests, &HaloIncidence::halo}; }
 };
 
 // Places where a particle may touch a geometry of a rigid body before the next search; sorted by particle row, geometry,
@@ -401,7 +412,7 @@ struct Population {
   static constexpr auto columns() { return std::tuple{&Population::next_id}; }
 };
 
-using World = std::tuple<Particles, Neighbours, Neighbourhood, Contacts, PreviousContacts, Incidence, ContactSums, Halo,
+using World = std::tuple<Particles, Neighbours, Neighbourhood, Contacts, PreviousContacts, Incidence, ContactSums, Guests, Halo,
                          HaloIncidence, BodyContacts, PreviousBodyContacts, BodyIncidence, Triangles,
                          Bodies, Geometries, RigidPairs, RigidContacts, CellGrid, SolverBodies, ContactBlocks, HubContacts, Solver, EnergyLedger, Clock, Search,
                          Removed, Created, Crossed, Population>;

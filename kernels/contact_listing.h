@@ -25,7 +25,8 @@ template <class Space> struct ContactListing {
   void operator()(Parallel parallel, Read<&Search::list_due> due, Read<&Particles::position> position,
                   Read<&Particles::radius> radius, Read<&Particles::list_margin> margin, Read<&Neighbourhood::first> first,
                   Read<&Neighbours::row> row, Read<&Neighbours::id> id, Resize<Contacts> contacts, Resize<PreviousContacts> previous,
-                  Resize<Incidence> incidence, Resize<ContactSums> sums, Resize<Halo> halo, Resize<HaloIncidence> of_halo) const;
+                  Resize<Incidence> incidence, Resize<ContactSums> sums, Resize<Guests> guests, Resize<Halo> halo,
+                  Resize<HaloIncidence> of_halo) const;
 };
 
 extern template struct ContactListing<OpenSpace>;

@@ -17,8 +17,8 @@ template <bool contacts, bool body_contacts, bool rotates, class Inertia> struct
   double time_step;   // h [s]; 0: forces only
   Inertia inertia;
 
-  void operator()(Parallel parallel, If<contacts, Read<&HaloIncidence::to>> halo_to, If<contacts, Read<&Halo::order>> halo_order,
-                  If<contacts, Read<&Halo::particle>> halo_particle, If<contacts, Update<&ContactSums::force>> force_sum,
+  void operator()(Parallel parallel, If<contacts, Read<&HaloIncidence::halo>> first_halo, If<contacts, Read<&Halo::particle>> halo_particle,
+                  If<contacts, Read<&Halo::sum>> halo_sum, If<contacts, Update<&ContactSums::force>> force_sum,
                   If<contacts && rotates, Update<&ContactSums::torque>> torque_sum, If<body_contacts, Read<&BodyIncidence::first>> first_body,
                   If<body_contacts, Read<&BodyContacts::force>> body_force,
                   If<body_contacts && rotates, Read<&BodyContacts::torque>> body_torque, If<!Inertia::alike, Read<&Particles::mass>> mass,
@@ -30,10 +30,10 @@ template <bool contacts, bool body_contacts, bool rotates, class Inertia> struct
     const Inertia of = inertia;                              // a copy, which no column can lie on: quotients are taken once
     parallel.chunks(n, contact_block, [&](std::size_t block, std::size_t begin, std::size_t end) {
       if constexpr (contacts)
-        for (Index k = halo_to[block]; k < halo_to[block + 1]; ++k) {
-          const Index row = halo_order[k], p = halo_particle[row];
-          force_sum[p] += force_sum[n + row];
-          if constexpr (rotates) torque_sum[p] += torque_sum[n + row];
+        for (Index row = first_halo[block]; row < first_halo[block + 1]; ++row) {
+          const Index p = halo_particle[row];
+          force_sum[p] += vector(halo_sum[row].force);
+          if constexpr (rotates) torque_sum[p] += vector(halo_sum[row].torque);
         }
       for (std::size_t p = begin; p < end; ++p) {
         Vec3 f, t;

@@ -11,18 +11,17 @@ namespace skred {
 // A contact of two particles: what the law sees, and the arms from both centres to the contact point [m].
 template <class R> struct PairState {
   ContactState<R> contact;
-  R arm_i, arm_j;
+  R arm_i, other_arm_j;                                      // of particles that are alike: one
 };
+template <class R> const R& arm_j(const AlikeParticles&, const PairState<R>& pair) { return pair.arm_i; }
+template <class R, class K> const R& arm_j(const LookedUpParticles<K>&, const PairState<R>& pair) { return pair.other_arm_j; }
 
 template <class R> struct PairRadiiAndMass { R radius_i, radius_j, radius_eff, mass_eff; };
 
-template <class R, class Lanes>
-PairRadiiAndMass<R> radii_and_mass(const AlikeParticles& p, const PairColumns&, const Lanes&, const Lanes&) {
+template <class R> PairRadiiAndMass<R> radii_and_mass(const AlikeParticles& p, R, R, R, R) {
   return {p.radius, p.radius, p.radius * p.radius / (p.radius + p.radius), p.mass * p.mass / (p.mass + p.mass)};
 }
-template <class R, class K, class Lanes>
-PairRadiiAndMass<R> radii_and_mass(const LookedUpParticles<K>&, const PairColumns& c, const Lanes& i, const Lanes& j) {
-  const R radius_i = load<R>(c.radius, i), radius_j = load<R>(c.radius, j), mass_i = load<R>(c.mass, i), mass_j = load<R>(c.mass, j);
+template <class R, class K> PairRadiiAndMass<R> radii_and_mass(const LookedUpParticles<K>&, R radius_i, R radius_j, R mass_i, R mass_j) {
   return {radius_i, radius_j, radius_i * radius_j / (radius_i + radius_j), mass_i * mass_j / (mass_i + mass_j)};
 }
 
@@ -38,13 +37,22 @@ template <class R, class Lanes> LawCoefficientsT<R> coefficients(const VariousPa
           of_pair(&LawCoefficients::tangential_damping), of_pair(&LawCoefficients::friction), of_pair(&LawCoefficients::rolling_friction)};
 }
 
-template <class R, class Pairs, class Lanes>
-void look_at(const Pairs& pairs, const PairColumns& c, const Lanes& row, PairState<R>& pair) {
-  using std::sqrt;
-  const auto i = rows_named<R>(c.i, row), j = rows_named<R>(c.j, row);
-  const auto p = radii_and_mass<R>(pairs.kinds, c, i, j);
+// Of the particles i, and of the particles j, of these contacts.
+template <class R, class Lanes> QuadT<R> of_i(Quad SeenParticle::* what, const PairColumns& c, const Lanes& row, const PairBlock& block) {
+  return load_quads<R>([&](int k) { return &(block.seen[c.i[row[k]] - block.first_particle].*what); });
+}
+template <class R, class Lanes> QuadT<R> of_j(Quad SeenParticle::* what, const PairColumns& c, const Lanes& row, const PairBlock& block) {
+  return load_quads<R>([&](int k) { return &(block.seen[c.place_of_j[row[k]]].*what); });
+}
 
-  const Vec3T<R> branch = pairs.space.shortest(load<R>(c.position, i) - load<R>(c.position, j));
+template <class R, class Pairs, class Lanes>
+void look_at(const Pairs& pairs, const PairColumns& c, const Lanes& row, const PairBlock& block, PairState<R>& pair) {
+  using std::sqrt;
+  const QuadT<R> at_i = of_i<R>(&SeenParticle::position, c, row, block), at_j = of_j<R>(&SeenParticle::position, c, row, block);
+  const QuadT<R> moves_i = of_i<R>(&SeenParticle::velocity, c, row, block), moves_j = of_j<R>(&SeenParticle::velocity, c, row, block);
+  const auto p = radii_and_mass(pairs.kinds, at_i.s, at_j.s, moves_i.s, moves_j.s);
+
+  const Vec3T<R> branch = pairs.space.shortest(at_i.v - at_j.v);
   const R distance = norm(branch);
   ContactState<R>& s = pair.contact;
   s.overlap = p.radius_i + p.radius_j - distance;            // g = R_i + R_j - |x_i - x_j|   eq (2.8)
@@ -52,14 +60,15 @@ void look_at(const Pairs& pairs, const PairColumns& c, const Lanes& row, PairSta
   s.radius_eff = p.radius_eff;
   s.contact_radius = sqrt(p.radius_eff * s.overlap);
   s.damping_scale = sqrt(s.contact_radius * p.mass_eff);
-  pair.arm_i = p.radius_i - R(0.5) * s.overlap;
-  pair.arm_j = p.radius_j - R(0.5) * s.overlap;
+  const R arm_i = pair.arm_i = p.radius_i - R(0.5) * s.overlap;
+  const R arm_j = Pairs::Kinds::alike ? arm_i : p.radius_j - R(0.5) * s.overlap;
+  if constexpr (!Pairs::Kinds::alike) pair.other_arm_j = arm_j;
 
-  Vec3T<R> u = load<R>(c.velocity, i) - load<R>(c.velocity, j);
+  Vec3T<R> u = moves_i.v - moves_j.v;
   s.normal_velocity = dot(u, s.normal);                      // spin adds nothing along n
   if constexpr (Pairs::Law::rotates) {
-    const Vec3T<R> spin_i = load<R>(c.spin, i), spin_j = load<R>(c.spin, j);
-    u -= cross(pair.arm_i * spin_i + pair.arm_j * spin_j, s.normal);
+    const Vec3T<R> spin_i = of_i<R>(&SeenParticle::spin, c, row, block).v, spin_j = of_j<R>(&SeenParticle::spin, c, row, block).v;
+    u -= cross(arm_i * spin_i + arm_j * spin_j, s.normal);
     s.tangential_velocity = u - s.normal_velocity * s.normal;
     s.rolling_velocity = in_tangent_plane(spin_i - spin_j, s.normal);
   }
@@ -68,7 +77,7 @@ void look_at(const Pairs& pairs, const PairColumns& c, const Lanes& row, PairSta
 // Adds what contacts do to the sums of their particles: the force, its torque about either centre, and the rolling moment on i.
 template <class Law, class R, class Lanes>
 void add_to_sums(const Vec3T<R>& force, const Vec3T<R>& torque_i, const Vec3T<R>& torque_j, const Vec3T<R>& rolling,
-                 const PairColumns& c, const Lanes& row, const BlockSums& sums) {
+                 const PairColumns& c, const Lanes& row, const PairBlock& block) {
   constexpr std::size_t width = lanes<R>;
   Four f[width], t_i[width], t_j[width];
   as_rows(force, f);
@@ -76,17 +85,17 @@ void add_to_sums(const Vec3T<R>& force, const Vec3T<R>& torque_i, const Vec3T<R>
   else if constexpr (Law::rotates) as_rows(torque_i, t_i), as_rows(torque_j, t_j);
   for (std::size_t k = 0; k < width; ++k) {                  // one after the other: several may be contacts of one particle
     if (int(k) == row.count) break;
-    PairSum& on_i = sums.sum[c.i[row[k]] - sums.first_particle];
+    PairSum& on_i = block.sum[c.i[row[k]] - block.first_particle];
     on_i.force += f[k];
     if constexpr (Law::rotates) on_i.torque += t_i[k];
-    PairSum& on_j = sums.sum[c.sum_of_j[row[k]]];
+    PairSum& on_j = block.sum[c.place_of_j[row[k]]];
     on_j.force -= f[k];
     if constexpr (Law::rotates) on_j.torque += t_j[k];
   }
 }
 
 template <class R, class Pairs, class Lanes>
-void apply_law(const Pairs& pairs, const PairState<R>& pair, const PairColumns& c, const Lanes& row, const BlockSums& sums) {
+void apply_law(const Pairs& pairs, const PairState<R>& pair, const PairColumns& c, const Lanes& row, const PairBlock& block) {
   using Law = typename Pairs::Law;
   Vec3T<R> spring, rolling;
   if constexpr (Law::has_tangential) spring = load<R>(c.spring, row);
@@ -101,39 +110,42 @@ void apply_law(const Pairs& pairs, const PairState<R>& pair, const PairColumns& 
   if constexpr (Law::has_tangential) store(select(touching, spring, none), c.spring, row);
   if constexpr (Law::has_rolling) store(rolling = select(touching, rolling, none), c.rolling, row);
   Vec3T<R> torque_i, torque_j;
-  if constexpr (Law::rotates) torque_i = select(touching, -pair.arm_i * f.couple, none), torque_j = select(touching, -pair.arm_j * f.couple, none);
-  add_to_sums<Law>(force, torque_i, torque_j, rolling, c, row, sums);
+  if constexpr (Law::rotates) {
+    torque_i = select(touching, -pair.arm_i * f.couple, none);
+    torque_j = select(touching, -arm_j(pairs.kinds, pair) * f.couple, none);
+  }
+  add_to_sums<Law>(force, torque_i, torque_j, rolling, c, row, block);
 }
 
 // In two passes over a few packs at a time: roots and divisions wait long for each other, and a processor fills the waiting with
 // work on the next packs only if it is not far ahead. Flat: a call would pass packs through memory.
 template <class R, class Pairs> [[gnu::flatten]] void calculate_forces(const Pairs& pairs, const PairColumns& c, std::size_t first, std::size_t last,
-                                                                     const BlockSums& sums) {
+                                                                     const PairBlock& block) {
   constexpr std::size_t packs = 4, width = lanes<R>;
   PairState<R> state[packs];
   const auto look = [&](const auto& row, PairState<R>& out) {
     if constexpr (lanes<R> > 1) {
-      look_at(pairs, c, row, out);                           // where it stays: to return packs, a compiler writes them twice
+      look_at(pairs, c, row, block, out);                    // where it stays: to return packs, a compiler writes them twice
     } else {
       PairState<R> here;                                     // and plain numbers stay in registers while nobody else can see them
-      look_at(pairs, c, row, here);
+      look_at(pairs, c, row, block, here);
       out = here;
     }
   };
   for (; first + packs * width <= last; first += packs * width) {
     for (std::size_t k = 0; k < packs; ++k) look(FullRange<R>{first + k * width}, state[k]);
-    for (std::size_t k = 0; k < packs; ++k) apply_law(pairs, state[k], c, FullRange<R>{first + k * width}, sums);
+    for (std::size_t k = 0; k < packs; ++k) apply_law(pairs, state[k], c, FullRange<R>{first + k * width}, block);
   }
   for (; first < last; first += width) {
     const PartOfRange<R> row(first, last);
     look(row, state[0]);
-    apply_law(pairs, state[0], c, row, sums);
+    apply_law(pairs, state[0], c, row, block);
   }
 }
 
 template <class Law, class Kinds, class Space> template <VectorPath path>
-void PairForces<Law, Kinds, Space>::run(const PairForces& pairs, const PairColumns& c, std::size_t first, std::size_t last, const BlockSums& sums) {
-  calculate_forces<NumberOf<path>>(pairs, c, first, last, sums);
+void PairForces<Law, Kinds, Space>::run(const PairForces& pairs, const PairColumns& c, std::size_t first, std::size_t last, const PairBlock& block) {
+  calculate_forces<NumberOf<path>>(pairs, c, first, last, block);
 }
 
 }  // namespace skred

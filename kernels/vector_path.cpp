@@ -8,7 +8,7 @@
 namespace skred {
 
 #define SKRED_INSTANTIATE(...) \
-  template void PairForces<__VA_ARGS__>::run<VectorPath::SKRED_PATH>(const PairForces&, const PairColumns&, std::size_t, std::size_t, const BlockSums&);
+  template void PairForces<__VA_ARGS__>::run<VectorPath::SKRED_PATH>(const PairForces&, const PairColumns&, std::size_t, std::size_t, const PairBlock&);
 #define SKRED_INSTANTIATE_LAW(LAW) \
   SKRED_INSTANTIATE(LAW, AlikeParticles, OpenSpace) SKRED_INSTANTIATE(LAW, AlikeParticles, PeriodicSpace) \
   SKRED_INSTANTIATE(LAW, VariousParticles, OpenSpace) SKRED_INSTANTIATE(LAW, VariousParticles, PeriodicSpace)

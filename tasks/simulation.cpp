@@ -50,7 +50,7 @@ Simulation::Simulation(World world, Model model, int threads)
   Incidence& in = std::get<Incidence>(world_);                 // nothing is listed where a start is no number: no contacts then
   in.first.data.assign(n + 1, 0);
   HaloIncidence& halo = std::get<HaloIncidence>(world_);
-  for (auto* c : {&halo.from, &halo.to}) c->data.assign(blocks_of(n) + 1, 0);
+  for (auto* c : {&halo.guests, &halo.halo}) c->data.assign(blocks_of(n) + 1, 0);
   if (model_.method == Method::sdem)
     for (auto* c : {&std::get<ContactSums>(world_).force, &std::get<ContactSums>(world_).torque}) c->data.resize(n);
   std::get<BodyIncidence>(world_).first.data.assign(n + 1, 0);

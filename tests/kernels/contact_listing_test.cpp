@@ -17,35 +17,43 @@ template <class Space> void search(World& w, const Space& space) {
   std::get<Particles>(w).searched.data = std::get<Particles>(w).position.data;
 }
 
-// In the block of i, or in the halo, of which every row is named once by a contact and once in the order of blocks.
-void expect_every_j_has_its_sum(const World& w) {
+// In the block of i, or among its guests, who are there once each, and once each in the halo of the block where they are at home.
+void expect_every_j_has_its_place(const World& w) {
   const Contacts& c = std::get<Contacts>(w);
+  const Guests& guests = std::get<Guests>(w);
   const Halo& halo = std::get<Halo>(w);
   const HaloIncidence& of = std::get<HaloIncidence>(w);
   const std::size_t n = std::get<Particles>(w).rows(), blocks = blocks_of(n);
-  ASSERT_TRUE(of.from.data.size() == blocks + 1 && of.to.data.size() == blocks + 1);
-  EXPECT_EQ(of.from.data[blocks], halo.rows());
-  EXPECT_EQ(std::get<ContactSums>(w).force.data.size(), n + halo.rows());
-  Index next = 0;                                            // row of the halo
+  ASSERT_TRUE(of.guests.data.size() == blocks + 1 && of.halo.data.size() == blocks + 1);
+  EXPECT_EQ(of.guests.data[blocks], guests.rows());
+  EXPECT_EQ(std::get<ContactSums>(w).force.data.size(), n);
+  EXPECT_TRUE(halo.rows() == guests.rows() && halo.sum.data.size() == guests.rows());
+  std::vector<Index> met(guests.rows());
   for (std::size_t k = 0; k < c.rows(); ++k) {
-    const std::size_t block = c.i.data[k] / contact_block, place = c.sum_of_j.data[k];
+    const std::size_t block = c.i.data[k] / contact_block, place = c.place_of_j.data[k];
     if (place < contact_block) {
       EXPECT_EQ(block * contact_block + place, c.j.data[k]);
       continue;
     }
+    const std::size_t g = of.guests.data[block] + place - contact_block;
+    ASSERT_LT(g, of.guests.data[block + 1]);
     EXPECT_NE(c.j.data[k] / contact_block, block);
-    EXPECT_EQ(of.from.data[block] + place - contact_block, next);
-    EXPECT_EQ(halo.particle.data[next++], c.j.data[k]);
+    EXPECT_EQ(guests.particle.data[g], c.j.data[k]);
+    ++met[g];
   }
-  EXPECT_EQ(next, halo.rows());
-  std::set<Index> seen;
-  for (std::size_t block = 0; block < blocks; ++block)
-    for (Index k = of.to.data[block]; k < of.to.data[block + 1]; ++k) {
-      EXPECT_EQ(halo.particle.data[halo.order.data[k]] / contact_block, block);
-      EXPECT_TRUE(k == of.to.data[block] || halo.order.data[k - 1] < halo.order.data[k]);
-      EXPECT_TRUE(seen.insert(halo.order.data[k]).second);
-    }
-  EXPECT_EQ(seen.size(), halo.rows());
+  EXPECT_EQ(std::count(met.begin(), met.end(), Index{0}), 0);
+  for (std::size_t block = 0; block < blocks; ++block) {
+    const auto first = guests.particle.data.begin() + of.guests.data[block], last = guests.particle.data.begin() + of.guests.data[block + 1];
+    EXPECT_EQ(std::set<Index>(first, last).size(), std::size_t(last - first));
+  }
+  std::set<Index> rows;
+  for (std::size_t g = 0; g < guests.rows(); ++g) {
+    const Index p = guests.particle.data[g], row = guests.halo_row.data[g];
+    EXPECT_EQ(halo.particle.data[row], p);
+    EXPECT_TRUE(of.halo.data[p / contact_block] <= row && row < of.halo.data[p / contact_block + 1]);
+    rows.insert(row);
+  }
+  EXPECT_EQ(rows.size(), guests.rows());
 }
 
 // The pairs listed; checks the columns and the places of a particle's contacts against each other.
@@ -66,7 +74,7 @@ template <class Space> Pairs listed(World& w, const Space& space, ContactColumns
       EXPECT_TRUE(out.insert({id[p], c.partner.data[k]}).second) << "listed twice";
     }
   EXPECT_EQ(out.size(), c.rows());
-  if (columns.sums) expect_every_j_has_its_sum(w);
+  if (columns.sums) expect_every_j_has_its_place(w);
   return out;
 }
 
@@ -120,7 +128,7 @@ TEST(ContactListing, OnlyTheColumnsThatLawsNeed) {
     const std::size_t n = listed(w, OpenSpace{}, columns).size();
     ASSERT_GT(n, 0u);
     EXPECT_EQ(c.force.data.size(), n);
-    EXPECT_EQ(c.sum_of_j.data.size(), columns.sums ? n : 0);
+    EXPECT_EQ(c.place_of_j.data.size(), columns.sums ? n : 0);
     EXPECT_EQ(c.spring.data.size(), columns.spring ? n : 0);
     EXPECT_EQ(c.rolling.data.size(), columns.rolling ? n : 0);
     EXPECT_EQ(std::get<ContactSums>(w).force.data.size(), columns.sums ? 60 : 0);

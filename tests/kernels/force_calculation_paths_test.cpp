@@ -32,7 +32,8 @@ struct Pairs {
   Buffer<Index> i, j;
   Buffer<Vec3> position, velocity, spin;
   Buffer<double> radii, masses;
-  Buffer<Index> material, sum_of_j;
+  Buffer<Index> material;
+  Buffer<SeenParticle> seen;
   std::vector<Kind> kind;
   Results start;
 
@@ -73,15 +74,13 @@ struct Pairs {
       start.rolling[k] = any(what == at_rest || what == sticking ? 1e-9 : 1e-2);
       start.force[k] = any(1);
     }
-    // Sums of one particle follow each other closely, now as i and now as j.
-    for (std::size_t k = 0; k < count; ++k) sum_of_j.push_back(random() % 2 ? j[k] : i[std::min(count - 1, k - std::min<std::size_t>(k, 2) + random() % 5)]);
+    for (std::size_t p = 0; p < 2 * count; ++p) seen.push_back({{position[p], radii[p]}, {velocity[p], masses[p]}, {spin[p]}});
   }
 
   template <class P> Results after(const P& pairs, VectorPath path, std::size_t first, std::size_t last) const {
     Results r = start;
-    pair_loop<P>(path)(pairs, {i.data(), j.data(), position.data(), velocity.data(), spin.data(), radii.data(), masses.data(),
-                               material.data(), sum_of_j.data(), r.force.data(), r.spring.data(), r.rolling.data()},
-                       first, last, {0, r.sums.data()});
+    pair_loop<P>(path)(pairs, {i.data(), j.data(), j.data(), material.data(), r.force.data(), r.spring.data(), r.rolling.data()}, first, last,
+                       {0, seen.data(), r.sums.data()});
     return r;
   }
 };
@@ -173,8 +172,8 @@ template <class Space> void compare_chosen(const Space& space) {
     Buffer<ContactMemory> memory(count);
     for (std::size_t k = 0; k < count; ++k) memory[k] = {0, pairs.start.spring[k], {}, pairs.start.rolling[k]};
     pair_loop<PairForces<ChosenBothMemory, ChosenParticles, Space>>(path)(
-        chosen, {pairs.i.data(), pairs.j.data(), pairs.position.data(), pairs.velocity.data(), pairs.spin.data(), pairs.radii.data(), pairs.masses.data(),
-                 pairs.material.data(), pairs.sum_of_j.data(), got.force.data(), nullptr, nullptr, memory.data()}, 0, count, {0, got.sums.data()});
+        chosen, {pairs.i.data(), pairs.j.data(), pairs.j.data(), pairs.material.data(), got.force.data(), nullptr, nullptr, memory.data()}, 0, count,
+        {0, pairs.seen.data(), got.sums.data()});
     for (std::size_t k = 0; k < count; ++k) got.spring[k] = memory[k].tangential, got.rolling[k] = memory[k].rolling;
     EXPECT_TRUE(same_bits(got, want, 0, count)) << name_of(path);
     EXPECT_TRUE(same_bits(got.sums, want.sums, 0, 2 * count)) << name_of(path);
@@ -229,9 +228,9 @@ TEST(PairForces, SumsAreWhatTheContactsDo) {
     const double overlap = pairs.radii[i] + pairs.radii[j] - norm(branch);
     const Vec3 n = norm(branch) > 0 ? normalized(branch) : Vec3{0, 0, 1};
     force[i] += r.force[k];
-    force[pairs.sum_of_j[k]] -= r.force[k];
+    force[j] -= r.force[k];
     torque[i] += cross(-(pairs.radii[i] - 0.5 * overlap) * n, r.force[k]) + r.rolling[k];
-    torque[pairs.sum_of_j[k]] += cross((pairs.radii[j] - 0.5 * overlap) * n, -r.force[k]) - r.rolling[k];
+    torque[j] += cross((pairs.radii[j] - 0.5 * overlap) * n, -r.force[k]) - r.rolling[k];
   }
   std::size_t turned = 0;
   for (std::size_t k = 0; k < 2 * count; ++k) {
