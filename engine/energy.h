@@ -1,7 +1,7 @@
 // engine/energy.h - where the energy of a system is, and where it went.
 //
-// The first law over any stretch of time: stored(end) - stored(start) + lost - work of moving bodies = 0. What is left over is the
-// error of the time step.
+// The first law over any stretch of time: stored(end) - stored(start) + lost - work of moving bodies - carried in + carried out = 0.
+// What is left over is the error of the time step.
 #pragma once
 
 namespace skred {
@@ -20,29 +20,34 @@ struct StoredEnergy {
   }
 };
 
+// What the springs of one contact hold [J].
+struct HeldEnergy { double normal = 0, tangential = 0, rolling = 0; };
+
 // Energy on its way [J], or its rate [W].
 struct EnergyFlow {
-  double normal = 0;                       // lost by the damping of normal contacts
+  double normal = 0;                       // lost by normal contacts: to dashpots, and to what stays pressed flat
   double tangential = 0;                   // by sliding and by tangential dashpots; and when a contact opens with its spring stretched
   double rolling = 0;                      // by rolling resistance
   double impacts = 0;                      // nonsmooth DEM: by the impact stage and by swept_test
   double bodies = 0;                       // gained: work of moving bodies
   double gravity = 0;                      // work of gravity
+  double carried_in = 0, carried_out = 0;  // by particles that come, and by those that go with what their contacts held
   double lost() const { return normal + tangential + rolling + impacts; }
   EnergyFlow& operator+=(const EnergyFlow& b) {
     normal += b.normal, tangential += b.tangential, rolling += b.rolling;
     impacts += b.impacts, bodies += b.bodies, gravity += b.gravity;
+    carried_in += b.carried_in, carried_out += b.carried_out;
     return *this;
   }
   friend EnergyFlow operator+(EnergyFlow a, const EnergyFlow& b) { return a += b; }
   friend EnergyFlow operator*(double s, const EnergyFlow& f) {
-    return {s * f.normal, s * f.tangential, s * f.rolling, s * f.impacts, s * f.bodies, s * f.gravity};
+    return {s * f.normal, s * f.tangential, s * f.rolling, s * f.impacts, s * f.bodies, s * f.gravity, s * f.carried_in, s * f.carried_out};
   }
 };
 
 // What the ledger does not close by [J]: > 0 where energy came from nowhere.
 inline double energy_error(const StoredEnergy& now, const StoredEnergy& start, const EnergyFlow& flow) {
-  return now.total() - start.total() + flow.lost() - flow.bodies;
+  return now.total() - start.total() + flow.lost() - flow.bodies - flow.carried_in + flow.carried_out;
 }
 
 }  // namespace skred

@@ -78,10 +78,11 @@ struct Contacts {
   Column<Vec3>   spring{"tangential_spring", "m"};                 // history: displacement in the tangent plane
   Column<Vec3>   rolling{"rolling_moment", "N m"};                 // on i, the opposite on j; history where it is elastic
   Column<ContactMemory> memory{"contact_memory", "m, N, N m"};     // history
+  Column<Vec3>   moment{"whole_rolling_moment", "N m"};            // on i, with its dashpot: for the energy ledger, of a chosen law
   std::size_t rows() const { return i.data.size(); }
   static constexpr auto columns() {
     return std::tuple{&Contacts::i, &Contacts::j, &Contacts::partner, &Contacts::place_of_j, &Contacts::force,
-                      &Contacts::spring, &Contacts::rolling, &Contacts::memory};
+                      &Contacts::spring, &Contacts::rolling, &Contacts::memory, &Contacts::moment};
   }
 };
 
@@ -343,10 +344,12 @@ struct EnergyLedger {
   Column<EnergyFlow>   power{"power", "W", {EnergyFlow{}}};                  // smooth DEM: of the state
   Column<EnergyFlow>   in_step{"energy_flow_in_step", "J", {EnergyFlow{}}};  // nonsmooth DEM: of the impulses
   Column<SolverBody>   before{"solver_state_before", "m/s, 1/kg, rad/s, 1/(kg m^2)"};   // nonsmooth DEM: the solver's stage
+  Column<HeldEnergy>   of_pairs{"held_by_pairs", "J"};                       // by row of Contacts; empty unless particles are removed
+  Column<HeldEnergy>   of_walls{"held_at_bodies", "J"};                      // the same of BodyContacts
   std::size_t rows() const { return 1; }
   static constexpr auto columns() {
     return std::tuple{&EnergyLedger::stored, &EnergyLedger::at_start, &EnergyLedger::flow, &EnergyLedger::power, &EnergyLedger::in_step,
-                      &EnergyLedger::before};
+                      &EnergyLedger::before, &EnergyLedger::of_pairs, &EnergyLedger::of_walls};
   }
 };
 

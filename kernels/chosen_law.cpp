@@ -7,10 +7,10 @@
 namespace skred {
 
 // In place of the one in kernels/force_calculation_loop.h: one contact, which takes more to look at, and one column of history.
-template <bool tangential, bool rolling, bool remembers, class Space, class Lanes>
-void apply_law(const PairForces<ChosenLaw<tangential, rolling, remembers>, ChosenParticles, Space>& pairs, const PairState<double>& pair,
+template <bool tangential, bool rolling, bool remembers, bool keeps_moment, class Space, class Lanes>
+void apply_law(const PairForces<ChosenLaw<tangential, rolling, remembers, keeps_moment>, ChosenParticles, Space>& pairs, const PairState<double>& pair,
                const PairColumns& c, const Lanes& lanes, const PairBlock& block) {
-  using Law = ChosenLaw<tangential, rolling, remembers>;
+  using Law = ChosenLaw<tangential, rolling, remembers, keeps_moment>;
   const std::size_t row = lanes[0];
   ContactForce<double> f;                                    // not touching: no force, and the contact forgets
   Vec3 torque_i, torque_j;
@@ -28,6 +28,7 @@ void apply_law(const PairForces<ChosenLaw<tangential, rolling, remembers>, Chose
   }
   c.force[row] = f.force;
   if constexpr (remembers) c.memory[row] = memory;
+  if constexpr (keeps_moment) c.moment[row] = f.rolling;
   add_to_sums<Law>(f.force, torque_i, torque_j, f.rolling, c, lanes, block);
 }
 

@@ -39,14 +39,19 @@ struct ChosenContact : ContactState<double> {
   Vec3 rolling_slip;        // R_i w_i - R_j w_j [m/s], without its part along n
 };
 
-// `remembers`: some part has a history, which is a row of the column `memory`.
-template <bool tangential, bool rolling, bool remembers_> struct ChosenLaw {
+// `remembers`: some part has a history, which is a row of the column `memory`. `keeps_moment`: the energy ledger asks for rolling moments.
+template <bool tangential, bool rolling, bool remembers_, bool keeps_moment_ = false> struct ChosenLaw {
   using Coefficients = ChosenCoefficients;
   static constexpr bool chosen = true;
   static constexpr bool has_tangential = tangential, has_rolling = rolling, rotates = tangential || rolling;
-  static constexpr bool keeps_spring = false, keeps_rolling = false, remembers = remembers_;
+  static constexpr bool keeps_spring = false, keeps_rolling = false, remembers = remembers_, keeps_moment = keeps_moment_;
   ContactModel model;
 };
+
+inline void set_scales(NormalLaw law, double mass_eff, ContactState<double>& c) {
+  if (is_linear(law)) c.contact_radius = 1, c.damping_scale = std::sqrt(mass_eff);
+  else if (law == NormalLaw::kuwabara_kono) c.damping_scale = c.contact_radius;
+}
 
 inline double normal_force(NormalLaw law, const ContactState<double>& c, const ChosenCoefficients& k, ContactMemory& memory) {
   switch (law) {
@@ -131,12 +136,11 @@ inline Vec3 rolling_moment(RollingLaw law, const ChosenContact& contact, const C
   return {};
 }
 
-template <bool tangential, bool rolling, bool remembers>
-ContactForce<double> evaluate(const ChosenLaw<tangential, rolling, remembers>& law, const ChosenContact& contact,
+template <bool tangential, bool rolling, bool remembers, bool keeps_moment>
+ContactForce<double> evaluate(const ChosenLaw<tangential, rolling, remembers, keeps_moment>& law, const ChosenContact& contact,
                               const ChosenCoefficients& k, double time_step, ContactMemory& memory) {
   ContactState<double> c = contact;
-  if (is_linear(law.model.normal)) c.contact_radius = 1, c.damping_scale = std::sqrt(contact.mass_eff);
-  else if (law.model.normal == NormalLaw::kuwabara_kono) c.damping_scale = c.contact_radius;
+  set_scales(law.model.normal, contact.mass_eff, c);
 
   const double normal = normal_force(law.model.normal, c, k, memory);
   ContactForce<double> out{normal * c.normal, {}, {}};

@@ -111,6 +111,7 @@ template <class Normal, class Tangential, class Rolling> struct ContactLaw {
   static constexpr bool has_tangential = Tangential::exists, has_rolling = Rolling::exists;
   static constexpr bool rotates = has_tangential || has_rolling;   // without them nothing can turn a sphere
   static constexpr bool keeps_spring = has_tangential, keeps_rolling = has_rolling, remembers = false;   // columns of its history
+  static constexpr bool keeps_moment = false;                      // the history is the moment
 };
 
 // Force on i and the two parts of its torque: `couple` = n x F_t acts on both partners with the arm of each, `rolling` on i (and

@@ -117,6 +117,7 @@ void ContactListing<Space>::operator()(Parallel parallel, Read<&Search::list_due
   resize_for_overwrite(contacts->spring.data, columns.spring ? total : 0);
   resize_for_overwrite(contacts->rolling.data, columns.rolling ? total : 0);
   resize_for_overwrite(contacts->memory.data, columns.memory ? total : 0);
+  resize_for_overwrite(contacts->moment.data, columns.moment ? total : 0);
   resize_for_overwrite(sums->force.data, columns.sums ? n : 0);
   resize_for_overwrite(sums->torque.data, columns.sums && columns.torque ? n : 0);
   resize_for_overwrite(incidence->first.data, n + 1);

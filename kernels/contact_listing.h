@@ -14,6 +14,7 @@ struct ContactColumns {
   bool sums = false;                   // pairs: sums of forces, of torques too where there are any
   bool torque = false, rolling_torque = false;
   bool spring = false, rolling = false, memory = false;   // history
+  bool moment = false;                 // pairs: the rolling moment for the energy ledger
 };
 
 template <class Space> struct ContactListing {

@@ -1,6 +1,7 @@
 #include "kernels/energy_ledger.h"
 #include <algorithm>
 #include "kernels/contact_blocks.h"
+#include "kernels/integrate.h"
 
 namespace skred {
 
@@ -25,12 +26,15 @@ template <class Add> Entry sum(const Parallel& parallel, std::size_t count, cons
   return all;
 }
 
-Vec3 at_or_none(std::span<const Vec3> column, std::size_t row) { return column.empty() ? Vec3{} : column[row]; }
-Vec3 at_or_none(Nothing, std::size_t) { return {}; }
+// Entry `row` of a column of the laws, zero where there is none.
+template <class V, class Column> V entry_of(const Column& column, std::size_t row) {
+  if constexpr (std::is_same_v<Column, Nothing>) return V{};
+  else return column.empty() ? V{} : column[row];
+}
 
-// Adds what the contact holds and what it takes.
-void add_contact(const LedgerContact& c, const LedgerOptions& o, Entry& e) {
-  if (!(c.overlap > 0)) return;
+// Adds what the contact holds and what it takes. Returns what it holds if it is let go in this state.
+HeldEnergy add_contact(const LedgerContact& c, const LedgerOptions& o, Entry& e) {
+  if (!(c.overlap > 0)) return {};
   const StoredInContact held = o.stored(c);
   e.stored.elastic_normal += held.normal.energy;
   e.stored.elastic_tangential += held.tangential;
@@ -39,6 +43,7 @@ void add_contact(const LedgerContact& c, const LedgerOptions& o, Entry& e) {
   e.flow.normal -= (normal_force - held.normal.force) * u_n;
   e.flow.tangential -= dot(c.force - normal_force * c.normal, c.velocity);
   e.flow.rolling -= dot(c.moment, c.spin);
+  return {held.normal.energy - o.let_go_after * held.normal.force * u_n, held.tangential, held.rolling};
 }
 
 double rotation_of(const Quaternion& orientation, const Vec3& inertia, const Vec3& spin) {
@@ -96,18 +101,19 @@ template <bool smooth>
 void UpdateEnergyLedger<smooth>::operator()(Parallel parallel, Read<&Particles::position> position, Read<&Particles::velocity> velocity,
     Read<&Particles::angular_velocity> spin, Read<&Particles::radius> radius, Read<&Particles::mass> mass,
     Read<&Particles::material> material, Read<&Contacts::i> i, Read<&Contacts::j> j, If<smooth, Read<&Contacts::force>> pair_force,
-    If<smooth, Read<&Contacts::spring>> pair_spring, If<smooth, Read<&Contacts::rolling>> pair_moment,
+    If<smooth, Read<&Contacts::spring>> pair_spring, If<smooth, Read<&Contacts::rolling>> pair_rolling,
+    If<smooth, Read<&Contacts::memory>> pair_memory, If<smooth, Read<&Contacts::moment>> pair_moment,
     Read<&BodyContacts::particle> particle, Read<&BodyContacts::geometry> geometry, Read<&BodyContacts::overlap> overlap,
     Read<&BodyContacts::normal> normal, Read<&BodyContacts::curvature> curvature, If<smooth, Read<&BodyContacts::force>> body_force,
-    If<smooth, Read<&BodyContacts::spring>> body_spring, If<smooth, Read<&BodyContacts::rolling>> body_moment,
+    If<smooth, Read<&BodyContacts::spring>> body_spring, If<smooth, Read<&BodyContacts::memory>> body_memory,
+    If<smooth, Read<&BodyContacts::rolling_torque>> body_moment,
     Read<&RigidContacts::geometry_a> geometry_a, Read<&RigidContacts::geometry_b> geometry_b, Read<&RigidContacts::point> point,
     Read<&RigidContacts::normal> rigid_normal, Read<&RigidContacts::overlap> rigid_overlap, Read<&RigidContacts::radius_eff> rigid_radius,
     If<smooth, Read<&RigidContacts::force>> rigid_force, If<smooth, Read<&RigidContacts::spring>> rigid_spring,
+    If<smooth, Read<&RigidContacts::memory>> rigid_memory,
     Read<&Geometries::body> body, Read<&Geometries::material> body_material, Read<&Bodies::motion> motion, Read<&Bodies::pose> pose,
     Read<&Bodies::velocity> body_velocity, Read<&Bodies::angular_velocity> body_spin, Read<&Bodies::mass> body_mass,
-    Read<&Bodies::inertia> inertia, If<!smooth, Read<&SolverBodies::state>> solved, Update<&EnergyLedger::stored> stored,
-    Update<&EnergyLedger::at_start> at_start, Update<&EnergyLedger::flow> flow, Update<&EnergyLedger::power> power,
-    Update<&EnergyLedger::in_step> in_step) const {
+    Read<&Bodies::inertia> inertia, If<!smooth, Read<&SolverBodies::state>> solved, Resize<EnergyLedger> ledger) const {
   const double h = options.time_step;
   const auto shortest = [&](const Vec3& d) { return options.space ? options.space->shortest(d) : d; };
   const auto surface = [&](Index b, const Vec3& x) { return body_velocity[b] + cross(body_spin[b], x - pose[b].position); };
@@ -123,6 +129,9 @@ void UpdateEnergyLedger<smooth>::operator()(Parallel parallel, Read<&Particles::
     if constexpr (!smooth)                                   // swept_test has taken speed since
       if (h > 0) e.flow.impacts += 0.5 * mass[p] * (dot(solved[p].linear.v, solved[p].linear.v) - dot(v, v));
   });
+  auto &of_pairs = ledger->of_pairs.data, &of_walls = ledger->of_walls.data;
+  of_pairs.assign(options.removal ? i.size() : 0, {});
+  of_walls.assign(options.removal ? particle.size() : 0, {});
   const auto add = [&](const Entry& e) { all.stored += e.stored, all.flow += e.flow; };
 
   add(sum(parallel, i.size(), [&](std::size_t c, Entry& e) {
@@ -132,9 +141,12 @@ void UpdateEnergyLedger<smooth>::operator()(Parallel parallel, Read<&Particles::
     if (!(depth > 0)) return;
     const Vec3 n = distance > 0 ? (1 / distance) * branch : Vec3{0, 0, 1};
     const Vec3 arms = (radius[p] - 0.5 * depth) * spin[p] + (radius[q] - 0.5 * depth) * spin[q];
-    add_contact({material[p], material[q], depth, radius[p] * radius[q] / (radius[p] + radius[q]), n, at_or_none(pair_force, c),
-                 at_or_none(pair_moment, c), velocity[p] - velocity[q] - cross(arms, n), spin[p] - spin[q], at_or_none(pair_spring, c)},
-                options, e);
+    const Vec3 moment = entry_of<Vec3>(pair_rolling, c) + entry_of<Vec3>(pair_moment, c);   // at most one of them is there
+    const HeldEnergy held = add_contact(
+        {material[p], material[q], depth, radius[p] * radius[q] / (radius[p] + radius[q]), n, entry_of<Vec3>(pair_force, c), moment,
+         velocity[p] - velocity[q] - cross(arms, n), spin[p] - spin[q], entry_of<Vec3>(pair_spring, c), entry_of<ContactMemory>(pair_memory, c)},
+        options, e);
+    if (options.removal) of_pairs[c] = held;
   }));
 
   add(sum(parallel, particle.size(), [&](std::size_t c, Entry& e) {
@@ -142,20 +154,22 @@ void UpdateEnergyLedger<smooth>::operator()(Parallel parallel, Read<&Particles::
     if (n == Vec3{}) return;                                 // a mesh's place that is not in use
     const Index p = particle[c], b = body[geometry[c]];
     const double arm = radius[p] - 0.5 * overlap[c];
-    const Vec3 wall = surface(b, position[p] - arm * n), force = at_or_none(body_force, c), moment = at_or_none(body_moment, c);
+    const Vec3 wall = surface(b, position[p] - arm * n), force = entry_of<Vec3>(body_force, c), moment = entry_of<Vec3>(body_moment, c);
     const Vec3 u = velocity[p] - wall - cross(arm * spin[p], n);
     const double depth = overlap_now(overlap[c], dot(u, n));
-    add_contact({material[p], body_material[geometry[c]], depth, radius[p] / (1 + radius[p] * curvature[c]), n, force, moment, u,
-                 spin[p] - body_spin[b], at_or_none(body_spring, c)}, options, e);
+    const HeldEnergy held = add_contact({material[p], body_material[geometry[c]], depth, radius[p] / (1 + radius[p] * curvature[c]), n, force, moment, u,
+                                         spin[p] - body_spin[b], entry_of<Vec3>(body_spring, c), entry_of<ContactMemory>(body_memory, c)},
+                                        options, e);
+    if (options.removal) of_walls[c] = held;
     if (motion[b] != Motion::dynamic) e.flow.bodies += dot(force, wall) + dot(moment, body_spin[b]);
   }));
 
   add(sum(parallel, geometry_a.size(), [&](std::size_t c, Entry& e) {
     const Index a = body[geometry_a[c]], b = body[geometry_b[c]];
-    const Vec3 of_a = surface(a, point[c]), of_b = surface(b, point[c]), force = at_or_none(rigid_force, c);
+    const Vec3 of_a = surface(a, point[c]), of_b = surface(b, point[c]), force = entry_of<Vec3>(rigid_force, c);
     const double depth = overlap_now(rigid_overlap[c], dot(of_a - of_b, rigid_normal[c]));
     add_contact({body_material[geometry_a[c]], body_material[geometry_b[c]], depth, rigid_radius[c], rigid_normal[c], force, {}, of_a - of_b,
-                 {}, at_or_none(rigid_spring, c)}, options, e);
+                 {}, entry_of<Vec3>(rigid_spring, c), entry_of<ContactMemory>(rigid_memory, c)}, options, e);
     if (motion[a] != Motion::dynamic) e.flow.bodies -= dot(force, of_a);
     if (motion[b] != Motion::dynamic) e.flow.bodies += dot(force, of_b);
   }));
@@ -169,21 +183,23 @@ void UpdateEnergyLedger<smooth>::operator()(Parallel parallel, Read<&Particles::
     all.flow.gravity += body_mass[b] * dot(options.gravity, v);
   }
 
-  EnergyFlow& so_far = flow[0];
-  const StoredEnergy last = stored[0];
+  EnergyFlow& so_far = ledger->flow.data[0];
+  const StoredEnergy last = ledger->stored.data[0];
   if constexpr (smooth) {
-    so_far += 0.5 * h * (power[0] + all.flow);
-    power[0] = all.flow;
+    EnergyFlow& power = ledger->power.data[0];
+    so_far += 0.5 * h * (power + all.flow);
+    power = all.flow;
   } else {
-    so_far += in_step[0];
+    EnergyFlow& in_step = ledger->in_step.data[0];
+    so_far += in_step;
     so_far.impacts += all.flow.impacts;
     so_far.gravity += h * all.flow.gravity;
-    in_step[0] = {};
+    in_step = {};
   }
   if (options.falls_for_ever) all.stored.gravity = -so_far.gravity;
-  stored[0] = all.stored;
+  ledger->stored.data[0] = all.stored;
   if (h == 0) {
-    at_start[0] = all.stored;
+    ledger->at_start.data[0] = all.stored;
     return;
   }
   so_far.tangential -= all.stored.elastic_tangential - last.elastic_tangential;
@@ -225,6 +241,58 @@ void EnergyLedgerRows::operator()(Parallel parallel, Read<&ContactBlocks::groups
     flow.rolling += rolling.taken;
     flow.bodies += normal.put_in + friction.put_in + rolling.put_in;
   });
+}
+
+namespace {
+
+// Kinetic and potential energy of a particle [J].
+double energy_of(double mass, double radius, const Vec3& x, const Vec3& v, const Vec3& spin, const Vec3& gravity, bool falls_for_ever) {
+  return 0.5 * mass * dot(v, v) + 0.2 * mass * radius * radius * dot(spin, spin) - (falls_for_ever ? 0 : mass * dot(gravity, x));
+}
+
+}  // namespace
+
+template <bool smooth>
+void EnergyLedgerRemoval<smooth>::operator()(Parallel parallel, Read<&Clock::step> step, Read<&Particles::position> position,
+    Read<&Particles::velocity> velocity, Read<&Particles::angular_velocity> spin, Read<&Particles::radius> radius, Read<&Particles::mass> mass,
+    If<smooth, Read<&Particles::force>> force, If<smooth, Read<&Particles::previous_force>> previous_force,
+    If<smooth, Read<&Particles::torque>> torque, If<smooth, Read<&Particles::previous_torque>> previous_torque, Read<&Contacts::i> i,
+    Read<&Contacts::j> j, Read<&BodyContacts::particle> particle, Read<&EnergyLedger::of_pairs> of_pairs,
+    Read<&EnergyLedger::of_walls> of_walls, Update<&EnergyLedger::stored> stored, Update<&EnergyLedger::flow> flow) const {
+  const std::vector<Leaving> gone = leaving(parallel, removers, step[0] - steps_behind, time_step, position, velocity);
+  if (gone.empty()) return;
+  std::vector<char> leaves(position.size(), 0);
+  for (const auto& [p, remover] : gone) {
+    leaves[p] = 1;
+    Vec3 v = velocity[p], w = spin[p];
+    if constexpr (smooth) {                                  // as in force_application, by gravity alone
+      v += (0.5 * time_step / mass[p]) * (mass[p] * gravity - mean(force[p], previous_force[p]));
+      w -= (0.5 * time_step / (0.4 * mass[p] * radius[p] * radius[p])) * mean(torque[p], previous_torque[p]);
+      flow[0].gravity += 0.5 * time_step * mass[p] * dot(gravity, v);
+    }
+    flow[0].carried_out += energy_of(mass[p], radius[p], position[p], v, w, gravity, falls_for_ever);
+  }
+  const auto take = [&](const HeldEnergy& held) {
+    stored[0].elastic_normal -= held.normal, stored[0].elastic_tangential -= held.tangential, stored[0].elastic_rolling -= held.rolling;
+    flow[0].carried_out += held.normal + held.tangential + held.rolling;
+  };
+  for (std::size_t c = 0; c < i.size(); ++c)
+    if (leaves[i[c]] || leaves[j[c]]) take(of_pairs[c]);
+  for (std::size_t c = 0; c < particle.size(); ++c)
+    if (leaves[particle[c]]) take(of_walls[c]);
+}
+
+template struct EnergyLedgerRemoval<true>;
+template struct EnergyLedgerRemoval<false>;
+
+void EnergyLedgerInflow::operator()(Read<&Search::rows_changed> changed, Read<&Particles::previous_row> previous_row,
+    Read<&Particles::position> position, Read<&Particles::velocity> velocity, Read<&Particles::angular_velocity> spin,
+    Read<&Particles::radius> radius, Read<&Particles::mass> mass, Update<&EnergyLedger::flow> flow, Update<&EnergyLedger::power> power) const {
+  if (!changed[0]) return;
+  for (std::size_t p = position.size(); p-- > 0 && previous_row[p] == no_index;) {      // they are the last rows
+    flow[0].carried_in += energy_of(mass[p], radius[p], position[p], velocity[p], spin[p], gravity, falls_for_ever);
+    power[0].gravity -= mass[p] * dot(gravity, velocity[p]);      // the half of smooth DEM's step in which it was not there
+  }
 }
 
 }  // namespace skred

@@ -35,6 +35,7 @@ struct PairColumns {
   const Index* material;
   Vec3 *force, *spring, *rolling;
   ContactMemory* memory = nullptr;
+  Vec3* moment = nullptr;
 };
 
 // What a contact needs to know of a particle. A block's contacts meet theirs in the order of chance: their rows are gathered here
@@ -83,10 +84,11 @@ template <class Law, class Kinds, class Space> struct ForceCalculationParticlePa
                   If<various, Read<&Particles::material>> material, Write<&Contacts::force> force,
                   If<Law::keeps_spring, Update<&Contacts::spring>> spring,
                   If<Law::keeps_rolling, Update<&Contacts::rolling>> rolling,
-                  If<Law::remembers, Update<&Contacts::memory>> memory, Write<&Halo::sum> halo_sum, Write<&ContactSums::force> force_sum,
+                  If<Law::remembers, Update<&Contacts::memory>> memory, If<Law::keeps_moment, Write<&Contacts::moment>> moment,
+                  Write<&Halo::sum> halo_sum, Write<&ContactSums::force> force_sum,
                   If<Law::rotates, Write<&ContactSums::torque>> torque_sum) const {
     const PairColumns columns{i.data(), j.data(), place_of_j.data(), pointer(material), force.data(), pointer(spring), pointer(rolling),
-                              pointer(memory)};
+                              pointer(memory), pointer(moment)};
     parallel.chunks(position.size(), contact_block, [&](std::size_t block, std::size_t begin, std::size_t end) {
       const std::size_t from = first_guest[block], guests = first_guest[block + 1] - from;
       thread_local Buffer<SeenParticle> seen;                // small enough for the caches beside a core

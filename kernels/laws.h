@@ -23,9 +23,14 @@ using ChosenRolling = ChosenLaw<false, true, false>;
 using ChosenRollingMemory = ChosenLaw<false, true, true>;
 using ChosenBoth = ChosenLaw<true, true, false>;
 using ChosenBothMemory = ChosenLaw<true, true, true>;
+using ChosenRollingLedger = ChosenLaw<false, true, false, true>;       // the energy ledger asks for the rolling moments
+using ChosenRollingMemoryLedger = ChosenLaw<false, true, true, true>;
+using ChosenBothLedger = ChosenLaw<true, true, false, true>;
+using ChosenBothMemoryLedger = ChosenLaw<true, true, true, true>;
 
 #define SKRED_FOR_EACH_CHOSEN_LAW(X) \
   X(ChosenNormal) X(ChosenNormalMemory) X(ChosenFriction) X(ChosenFrictionMemory) \
-  X(ChosenRolling) X(ChosenRollingMemory) X(ChosenBoth) X(ChosenBothMemory)
+  X(ChosenRolling) X(ChosenRollingMemory) X(ChosenBoth) X(ChosenBothMemory) \
+  X(ChosenRollingLedger) X(ChosenRollingMemoryLedger) X(ChosenBothLedger) X(ChosenBothMemoryLedger)
 
 }  // namespace skred

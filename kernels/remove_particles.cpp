@@ -15,18 +15,15 @@ bool looks(const Remover& r, std::int64_t step, double time_step) {
   return std::fmod(since, every) == 0;
 }
 
-struct Leaving { Index id, row, remover; };
-
 }  // namespace
 
-void RemoveParticles::operator()(Parallel parallel, Read<&Clock::step> step, Update<&Search::rows_changed> changed,
-                                 Update<&Removed::count> count, Update<&Removed::mass> mass, Resize<Particles> particles) const {
+std::vector<Leaving> leaving(const Parallel& parallel, std::span<const Remover> removers, std::int64_t step, double time_step,
+                             std::span<const Vec3> position, std::span<const Vec3> velocity) {
   std::vector<Index> looking;
   for (Index r = 0; r < removers.size(); ++r)
-    if (looks(removers[r], step[0] - steps_behind, time_step)) looking.push_back(r);
-  const auto& position = particles->position.data;
-  const std::size_t n = particles->rows();
-  if (looking.empty() || n == 0) return;
+    if (looks(removers[r], step, time_step)) looking.push_back(r);
+  const std::size_t n = position.size();
+  if (looking.empty() || n == 0) return {};
 
   constexpr std::size_t chunk = 4096;
   std::vector<std::vector<Leaving>> found((n + chunk - 1) / chunk);
@@ -34,21 +31,27 @@ void RemoveParticles::operator()(Parallel parallel, Read<&Clock::step> step, Upd
     for (std::size_t p = begin; p < end; ++p)
       for (const Index r : looking)
         if (contains(removers[r].region, position[p])) {
-          found[k].push_back({particles->id.data[p], static_cast<Index>(p), r});
+          found[k].push_back({static_cast<Index>(p), r});
           break;
         }
   });
-  std::vector<Leaving> leaving;
-  for (const auto& f : found) leaving.insert(leaving.end(), f.begin(), f.end());
-  if (leaving.empty()) return;
-  // Where something is not a number the run ends in this step, and the lists stay as they are (check_motion).
-  for (std::size_t p = 0; p < n; ++p)
-    if (!is_finite(position[p]) || !is_finite(particles->velocity.data[p])) return;
+  std::vector<Leaving> all;
+  for (const auto& f : found) all.insert(all.end(), f.begin(), f.end());
+  for (std::size_t p = 0; p < n && !all.empty(); ++p)
+    if (!is_finite(position[p]) || !is_finite(velocity[p])) return {};
+  return all;
+}
 
+void RemoveParticles::operator()(Parallel parallel, Read<&Clock::step> step, Update<&Search::rows_changed> changed,
+                                 Update<&Removed::count> count, Update<&Removed::mass> mass, Resize<Particles> particles) const {
+  auto gone = leaving(parallel, removers, step[0] - steps_behind, time_step, particles->position.data, particles->velocity.data);
+  if (gone.empty()) return;
+  const std::size_t n = particles->rows();
+  const auto& id = particles->id.data;
   std::vector<char> leaves(n, 0);
-  for (const Leaving& l : leaving) leaves[l.row] = 1;
-  std::sort(leaving.begin(), leaving.end(), [](const Leaving& a, const Leaving& b) { return a.id < b.id; });   // the order of the sums
-  for (const Leaving& l : leaving) {
+  for (const Leaving& l : gone) leaves[l.row] = 1;
+  std::sort(gone.begin(), gone.end(), [&](const Leaving& a, const Leaving& b) { return id[a.row] < id[b.row]; });   // the order of the sums
+  for (const Leaving& l : gone) {
     ++count[l.remover];
     mass[l.remover] += particles->mass.data[l.row];
   }

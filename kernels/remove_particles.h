@@ -17,10 +17,16 @@ struct Remover {
   double interval = 0;                                               // [s] rounded to steps; 0: every step
 };
 
+// Rows of the particles that leave at this step, ascending, each with the first remover in whose region it is. None where something is not
+// a number: then the run ends in this step, and the lists stay as they are (check_motion).
+struct Leaving { Index row, remover; };
+std::vector<Leaving> leaving(const Parallel&, std::span<const Remover>, std::int64_t step, double time_step, std::span<const Vec3> position,
+                             std::span<const Vec3> velocity);
+
 struct RemoveParticles {
   static constexpr const char* name = "remove_particles";
 
-  std::vector<Remover> removers;    // the first in whose region a particle is counts it
+  std::vector<Remover> removers;
   double time_step;                 // h [s]
   int steps_behind;                 // of the state, behind the clock: 1 where the step begins with this kernel
 

@@ -8,7 +8,10 @@ namespace skred {
 
 void add_flow(Task& task, const Model& m) {
   const int steps_behind = m.method == Method::ndem ? 1 : 0;   // nonsmooth DEM moves particles at the end of its step
-  if (!m.removers.empty()) task.add(RemoveParticles{m.removers, m.time_step, steps_behind});
+  if (!m.removers.empty()) {
+    if (m.energy) add_energy_ledger_removal(task, m);
+    task.add(RemoveParticles{m.removers, m.time_step, steps_behind});
+  }
   const auto emit = [&](const auto& space) {
     task.add(EmitParticles<std::decay_t<decltype(space)>>{space, m.inflows, m.time_step, steps_behind, m.gravity, m.orientation,
                                                           !m.areas.empty()});
@@ -16,6 +19,7 @@ void add_flow(Task& task, const Model& m) {
   if (m.inflows.empty()) return;
   if (m.periodic) emit(*m.periodic);
   else emit(OpenSpace{});
+  if (m.energy) add_energy_ledger_inflow(task, m);
 }
 
 void add_crossings(Task& task, const Model& m) {

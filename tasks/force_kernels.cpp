@@ -10,10 +10,8 @@
 
 namespace skred {
 
-namespace {
-
 // beta = sqrt(10/3) zeta, so that gamma_n = beta sqrt(S_n m_eff)   eq (3.2) repaired
-LawCoefficients coefficients(const PairCoefficients& p) {
+LawCoefficients law_coefficients(const PairCoefficients& p) {
   const double beta = std::sqrt(10.0 / 3.0) * damping_ratio_of(p.restitution);
   return {2 * p.young_eff, 8 * p.shear_eff, beta * std::sqrt(2 * p.young_eff), beta * std::sqrt(8 * p.shear_eff), p.friction, p.rolling_friction};
 }
@@ -21,7 +19,7 @@ LawCoefficients coefficients(const PairCoefficients& p) {
 // The same for a law with other parts: what multiplies the scales of its springs and dashpots (kernels/chosen_law.h). k_t / k_n is that
 // of Hertz and Mindlin, 8 G* / (2 E*) = 2 (1 - nu) / (2 - nu), whatever the normal law.
 ChosenCoefficients chosen_coefficients(const ContactModel& model, const PairCoefficients& p) {
-  ChosenCoefficients k{coefficients(p)};
+  ChosenCoefficients k{law_coefficients(p)};
   if (model.normal == NormalLaw::kuwabara_kono) {
     k.normal_damping = p.damping_time * k.normal_stiffness;
     k.tangential_damping = p.damping_time * k.tangential_stiffness;
@@ -41,11 +39,13 @@ ChosenCoefficients chosen_coefficients(const ContactModel& model, const PairCoef
   return k;
 }
 
+namespace {
+
 template <class Law> std::vector<typename Law::Coefficients> table_of(const Model& m) {
   std::vector<typename Law::Coefficients> table;
   for (const PairCoefficients& p : m.pairs.values) {
     if constexpr (Law::chosen) table.push_back(chosen_coefficients(m.contact, p));
-    else table.push_back(coefficients(p));
+    else table.push_back(law_coefficients(p));
   }
   return table;
 }
@@ -89,7 +89,9 @@ template <bool damped> void choose(Task& task, const World& w, const Model& m, c
 }
 
 template <bool remembers> void choose_other(Task& task, const World& w, const Model& m, const Effects& e, double h) {
-  if (e.friction && e.rolling) add_kernels(task, w, m, e, h, ChosenLaw<true, true, remembers>{m.contact});
+  if (e.friction && e.rolling && e.energy) add_kernels(task, w, m, e, h, ChosenLaw<true, true, remembers, true>{m.contact});
+  else if (e.rolling && e.energy) add_kernels(task, w, m, e, h, ChosenLaw<false, true, remembers, true>{m.contact});
+  else if (e.friction && e.rolling) add_kernels(task, w, m, e, h, ChosenLaw<true, true, remembers>{m.contact});
   else if (e.friction) add_kernels(task, w, m, e, h, ChosenLaw<true, false, remembers>{m.contact});
   else if (e.rolling) add_kernels(task, w, m, e, h, ChosenLaw<false, true, remembers>{m.contact});
   else add_kernels(task, w, m, e, h, ChosenLaw<false, false, remembers>{m.contact});

@@ -143,6 +143,7 @@ std::vector<std::pair<const char*, double>> energy_columns(const EnergyLedger& l
           {"energy_elastic_normal", now.elastic_normal}, {"energy_elastic_tangential", now.elastic_tangential},
           {"energy_elastic_rolling", now.elastic_rolling}, {"lost_to_normal_damping", flow.normal}, {"lost_to_friction", flow.tangential},
           {"lost_to_rolling", flow.rolling}, {"lost_to_impacts", flow.impacts}, {"work_of_bodies", flow.bodies},
+          {"carried_in", flow.carried_in}, {"carried_out", flow.carried_out},
           {"energy_error", energy_error(now, l.at_start.data[0], flow)}};
 }
 

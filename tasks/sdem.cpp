@@ -35,7 +35,8 @@ void add_sdem(Task& task, const World& world, const Model& model, bool initial) 
     add_flow(task, model);
   }
   const ContactColumns columns{.sums = true, .torque = torques, .rolling_torque = e.rolling,
-                               .spring = e.friction && !e.chosen, .rolling = e.rolling && !e.chosen, .memory = e.memory};
+                               .spring = e.friction && !e.chosen, .rolling = e.rolling && !e.chosen, .memory = e.memory,
+                               .moment = e.rolling && e.chosen && e.energy};
   add_collision(task, world, model, e, columns, h);
   add_rigid_collision(task, world, e, 0, columns.spring);
   add_force_calculation(task, world, model, e, h);

@@ -1,5 +1,6 @@
 // tasks/steps.h - the steps that tasks are made of.
 #pragma once
+#include "kernels/chosen_law.h"
 #include "kernels/contact_listing.h"
 #include "kernels/inertia.h"
 #include "tasks/model.h"
@@ -29,7 +30,14 @@ void add_rigid_collision(Task&, const World&, const Effects&, double margin, boo
 // Contact force kernels, one template instance per combination of laws (tasks/force_kernels.cpp).
 void add_force_calculation(Task&, const World&, const Model&, const Effects&, double time_step);
 
+// What the laws of smooth DEM know of a pair of materials.
+LawCoefficients law_coefficients(const PairCoefficients&);
+ChosenCoefficients chosen_coefficients(const ContactModel&, const PairCoefficients&);
+
 // The energy of the state at the end of a step and what became of it, where the output asks; time_step 0 before the first step.
 void add_energy_ledger(Task&, const Model&, const Effects&, double time_step);
+// What particles carry out and in: before they are removed, and after they were created.
+void add_energy_ledger_removal(Task&, const Model&);
+void add_energy_ledger_inflow(Task&, const Model&);
 
 }  // namespace skred

@@ -1,48 +1,13 @@
 // The energy ledger closes: to second order in the step for smooth DEM, to first for nonsmooth DEM, and what it says was lost is
 // what closed forms say.
 #include <gtest/gtest.h>
-#include "tests/physics/lab.h"
+#include "tests/physics/books.h"
 
 namespace skred::lab {
 namespace {
 
 constexpr double g = 9.81;
 const double m = sphere_mass(pellet_radius);
-
-struct Books {
-  StoredEnergy now, start;
-  EnergyFlow flow;
-  double error;
-};
-
-Books books_of(const Simulation& s) {
-  const EnergyLedger& l = std::get<EnergyLedger>(s.world());
-  return {l.stored.data[0], l.at_start.data[0], l.flow.data[0], energy_error(l.stored.data[0], l.at_start.data[0], l.flow.data[0])};
-}
-
-// Of a run of so many seconds; the greatest error on the way as well.
-struct Account : Books { double greatest = 0; };
-Account run(Lab lab, double time, double step, int threads = 1) {
-  lab.model.energy = true;
-  lab.model.time_step = step;
-  const auto s = lab.build(threads);
-  s->start();
-  Account r{books_of(*s)};
-  for (const auto steps = std::llround(time / step); s->steps_done() < steps;) {
-    s->step(threads == 1 ? Execution::list : Execution::graph);
-    r.greatest = std::max(r.greatest, std::abs(books_of(*s).error));
-  }
-  static_cast<Books&>(r) = books_of(*s);
-  return r;
-}
-
-Lab nonsmooth(Lab lab) {
-  lab.model.method = Method::ndem;
-  lab.model.solver.tolerance = 1e-10;
-  lab.model.solver.iterations = 5000;
-  lab.model.solver.impact_iterations = 5000;
-  return lab;
-}
 
 // Both methods; steps that both can take.
 struct Kind { Method method; double step; };
