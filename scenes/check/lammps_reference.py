@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""The numbers of the check case lammps-trajectories: 32 spheres in a periodic cube, in LAMMPS's conventions.
+"""The numbers of the check cases lammps-trajectories and lammps-wall, in LAMMPS's conventions: 32 spheres in a periodic cube, and one on a floor.
 
-  lammps_reference.py                 shows that this script has LAMMPS's digits, then prints the case's numbers (a quarter of an hour)
+  lammps_reference.py                 shows that this script has LAMMPS's digits, then prints the cases' numbers (a quarter of an hour)
   lammps_reference.py --lammps lmp    the same, with LAMMPS itself beside it (29 Sep 2021 or later, package GRANULAR)
 
 LAMMPS's conventions, `pair_style granular`: velocities half a step behind positions in all forces; a contact point at R for its
@@ -159,24 +159,28 @@ def simulate(law, step, alike=False):
     return v, w
 
 
-def lammps(program, law, step):
-    """the same of LAMMPS itself"""
-    steps = round(END / step)
-    data = "start\n\n32 atoms\n1 atom types\n" + "".join(f"0 {EDGE!r} {a}lo {a}hi\n" for a in "xyz") + "\nAtoms # sphere\n\n"
-    data += "".join(f"{k} 1 {2 * RADIUS} 1 {p[0]!r} {p[1]!r} {p[2]!r}\n" for k, p in enumerate(POSITIONS, 1))
-    data += "\nVelocities\n\n" + "".join(f"{k} 0 0 0 {s[0]!r} {s[1]!r} {s[2]!r}\n" for k, s in enumerate(spins(law), 1))
-    script = ("units lj\natom_style sphere\nboundary p p p\nnewton off\ncomm_modify vel yes\nread_data start.data\nset group all mass 1.0\n"
-              f"pair_style granular\npair_coeff * * {law.coeff} limit_damping\nneighbor 0.3 bin\nneigh_modify every 1 delay 0\ntimestep {step!r}\n"
-              f"fix 1 all nve/sphere\ndump 1 all custom {steps} out.dump id vx vy vz omegax omegay omegaz\n"
-              f"dump_modify 1 sort id format float %.17g\nrun {steps}\n")
+def run_lammps(program, scene, step, steps, count, files=()):
+    """velocities and spins at the end, by particle"""
+    script = (f"units lj\natom_style sphere\nnewton off\ncomm_modify vel yes\n{scene}timestep {step!r}\nfix 1 all nve/sphere\n"
+              f"dump 1 all custom {steps} out.dump id vx vy vz omegax omegay omegaz\ndump_modify 1 sort id format float %.17g\nrun {steps}\n")
     with tempfile.TemporaryDirectory() as folder:
-        for name, text in (("start.data", data), ("in.lammps", script)):
+        for name, text in (*files, ("in.lammps", script)):
             with open(os.path.join(folder, name), "w") as out: out.write(text)
         run = subprocess.run([program, "-in", "in.lammps", "-log", "none"], cwd=folder, capture_output=True, text=True)
         if run.returncode: raise SystemExit(run.stdout + run.stderr)
-        with open(os.path.join(folder, "out.dump")) as dump: rows = dump.read().rstrip("\n").split("\n")[-32:]
+        with open(os.path.join(folder, "out.dump")) as dump: rows = dump.read().rstrip("\n").split("\n")[-count:]
     rows = [tuple(map(float, row.split()[1:])) for row in rows]
     return [r[:3] for r in rows], [r[3:] for r in rows]
+
+
+def lammps(program, law, step):
+    """the same as simulate() of LAMMPS itself"""
+    data = "start\n\n32 atoms\n1 atom types\n" + "".join(f"0 {EDGE!r} {a}lo {a}hi\n" for a in "xyz") + "\nAtoms # sphere\n\n"
+    data += "".join(f"{k} 1 {2 * RADIUS} 1 {p[0]!r} {p[1]!r} {p[2]!r}\n" for k, p in enumerate(POSITIONS, 1))
+    data += "\nVelocities\n\n" + "".join(f"{k} 0 0 0 {s[0]!r} {s[1]!r} {s[2]!r}\n" for k, s in enumerate(spins(law), 1))
+    return run_lammps(program, "boundary p p p\nread_data start.data\nset group all mass 1.0\npair_style granular\n"
+                      f"pair_coeff * * {law.coeff} limit_damping\nneighbor 0.3 bin\nneigh_modify every 1 delay 0\n", step, round(END / step), 32,
+                      [("start.data", data)])
 
 
 def furthest(a, b):
@@ -204,6 +208,54 @@ SET_UPS = [
 ]
 
 
+# One sphere on the floor z = 0 ------------------------------------------------------------------------------------------
+
+WALL_END = 0.2                                               # [s]
+WALL_PRINTED = ((1.3889878724059437, 0.22220242551881125, 0.029596996643662121), (-0.31119029792475394, 2.4440485103762315, 1.0))   # dump.wall_gran
+
+
+class WallLaw:
+    """Springs k_n, k_t [N/m], dashpots gamma_n, gamma_t [kg/s] and mu; `limited`: the floor never pulls."""
+
+    def __init__(self, k_n, k_t, gamma_n, gamma_t, mu, limited=True):
+        self.__dict__.update(k_n=k_n, k_t=k_t, gamma_n=gamma_n, gamma_t=gamma_t, mu=mu, limited=limited)
+
+    def coeff(self): return f"{self.k_n!r} {self.k_t!r} {self.gamma_n!r} {self.gamma_t!r} {self.mu!r} 1" + (" limit_damping" if self.limited else "")
+
+
+def on_wall(law, step, alike=False):
+    """velocity and spin at the end"""
+    x, v, w, spring = (0.0, 0.0, 0.63), (1.0, 0.3, -2.0), (0.0, 4.0, 1.0), (0.0, 0.0, 0.0)
+    up, force, torque = (0.0, 0.0, 1.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+    for _ in range(round(WALL_END / step)):
+        v, w = add(v, force, 0.5 * step / MASS), add(w, torque, 0.5 * step / INERTIA)
+        x = add(x, v, step)
+        overlap = RADIUS - x[2]
+        if overlap > 0:
+            normal = law.k_n * overlap - law.gamma_n * v[2]
+            if law.limited: normal = max(0.0, normal)
+            arm = RADIUS - overlap / 2 if alike else RADIUS
+            slip = add(add(v, up, -v[2]), cross(w, up), -arm)
+            f, spring = spring_force(spring, slip, up, law.k_t, law.gamma_t, law.mu * abs(normal), step)
+            force, torque = add(f, up, normal), scaled(cross(up, f), -arm)
+        else:
+            spring = force = torque = (0.0, 0.0, 0.0)
+        v, w = add(v, force, 0.5 * step / MASS), add(w, torque, 0.5 * step / INERTIA)
+    return [v], [w]
+
+
+def lammps_on_wall(program, law, step):
+    """the same of LAMMPS itself"""
+    steps = round(WALL_END / step)
+    return run_lammps(program, "boundary p p f\nregion box block -5 5 -5 5 0 5\ncreate_box 1 box\ncreate_atoms 1 single 0 0 0.63\n"
+                      f"set group all diameter {2 * RADIUS}\nset group all mass 1.0\nvelocity all set 1 0.3 -2\nset group all omega 0 4 1\n"
+                      f"pair_style none\ncomm_modify cutoff 2\nfix 2 all wall/gran hooke/history {law.coeff()} zplane 0.0 NULL\n", step, steps, 1)
+
+
+K_T = 1000 * 6 / 7                                           # of nu = 1/4
+WALL_SET_UPS = [WallLaw(1000.0, K_T, 0.0, 0.0, 10.0), WallLaw(1000.0, K_T, 0.0, 0.0, 0.2)]
+
+
 def digits_of_lammps():
     """greatest distance of this script from what LAMMPS 22 Jul 2025 printed of its own test"""
     # gamma_n of `coeff_restitution` at e = 0.8, -2 sqrt(5/6) ln e / sqrt(pi^2 + ln^2 e) sqrt(2 E* a m_eff), in terms of alpha
@@ -213,11 +265,28 @@ def digits_of_lammps():
     return max(abs(p - q) for k, pair in PRINTED.items() for of, given in zip(state, pair) for p, q in zip(of[k - 1], given))
 
 
+COMPONENTS = ("vx", "vy", "vz", "wx", "wy", "wz")
+
+
+def wall_numbers(program):
+    state = on_wall(WallLaw(1000.0, 500.0, 50.0, 50.0, 0.4, limited=False), STEP)
+    print(f"wall, from what LAMMPS printed: {max(abs(p - q) for of, given in zip(state, WALL_PRINTED) for p, q in zip(of[0], given)):.1e}")
+    columns = {"lim": [], "same": []}
+    for law in WALL_SET_UPS:
+        if program: print(f"wall: LAMMPS from this script at {STEP} s: {furthest(lammps_on_wall(program, law, STEP), on_wall(law, STEP))}")
+        for name, alike in (("lim", False), ("same", True)):
+            v, w = limit_of(lambda h: on_wall(law, h, alike), STEP / 64)
+            columns[name].append(v[0] + w[0])
+    for name, (hold, slide) in columns.items():
+        for k, component in enumerate(COMPONENTS): print(f'    {component}_{name}: "set_up == 0 ? {hold[k]:.9g} : {slide[k]:.9g}"')
+
+
 def main():
-    options = argparse.ArgumentParser(description="The numbers of the check case lammps-trajectories.")
+    options = argparse.ArgumentParser(description="The numbers of the check cases lammps-trajectories and lammps-wall.")
     options.add_argument("--lammps", metavar="PROGRAM", help="run LAMMPS too")
     program = options.parse_args().lammps
 
+    wall_numbers(program)
     print(f"from what LAMMPS printed: {digits_of_lammps():.1e}")
     columns = {"step": [], "lim": [], "same": []}            # as the case names them
     for law in SET_UPS:
@@ -228,7 +297,7 @@ def main():
         alike = limit_of(lambda h: simulate(law, h, True), STEP / 32) if law.mu else limit
         for name, (v, w) in zip(columns, (at_step, limit, alike)): columns[name].append(v[7] + w[7])      # of particle 8
     for name, of_set_up in columns.items():
-        for k, component in enumerate(("vx", "vy", "vz", "wx", "wy", "wz")):
+        for k, component in enumerate(COMPONENTS):
             n, s, f, r = (f"{state[k]:.9g}" for state in of_set_up)
             print(f'    {component}_{name}: "set_up == 0 ? {n} : set_up == 1 ? {s} : set_up == 2 ? {f} : {r}"')
 
