@@ -62,6 +62,9 @@ g overlap, R_eff and m_eff reduced radius and mass (a wall: R and m of the parti
 u_t velocity of the contact point, w_t relative spin, both in the tangent plane. The contact lies at R - g/2 from a centre.
 Springs beside another normal law than hertz: k_t = 4 G*/E* times k_n or k_1 and gamma_t = 2 zeta sqrt(k_t m_eff) beside linear and
 walton_braun; gamma_t = A k_t beside kuwabara_kono.
+The energy ledger (output.energy) counts as stored what would come back if a contact were let go: 2/5 k g^(5/2) under hertz and kuwabara_kono,
+1/2 k_n g^2 under linear, F_n^2 / (2 k_2) under walton_braun; 1/2 k_t x^2 in the tangential spring, in walton_braun's friction the work of
+going back to no force along (2.24), M^2 / (2 k_r) in the rolling spring without its dashpot, nothing in other laws. The rest is lost.
 hertz with springs runs on every set of vector instructions; any other combination on plain doubles.
 A parameter that the chosen laws need and a pair lacks is an error; one that they do not use is named in the log.
 Nonsmooth DEM has none of these to choose: its rows are Hertz compliance, Coulomb friction and a constant limit of the rolling

@@ -70,18 +70,6 @@ void check_periodic(const Scene& scene, const World& world, const Model& model) 
                                      "xyz"[a], p.max - p.min, least));
 }
 
-// What other laws store of the work done on them, and what particles carry in and out, the ledger has not learnt.
-void check_energy(const Scene& scene, const World& world, const Model& model) {
-  if (!scene.output.energy) return;
-  if (!scene.inflow.empty() || !scene.remove.empty())
-    throw SceneRefused("output.energy: the energy ledger does not know what particles carry in and out; this scene has `" +
-                       std::string(scene.inflow.empty() ? "remove" : "inflow") + "`");
-  if (decide_effects(world, model).chosen)
-    throw SceneRefused(fmt::format("output.energy: the energy ledger knows the laws {{normal: hertz, tangential: spring, rolling: spring}} without "
-                                   "rolling_damping, and none in place of one; this scene has {{normal: {}, tangential: {}, rolling: {}}}",
-                                   word_of(scene.contact.normal), word_of(scene.contact.tangential), word_of(scene.contact.rolling)));
-}
-
 constexpr double most_steps = 1e15;                 // of a run: centuries, and exact in a double
 
 ExpectedSpeed speed_of(const Scene& scene, const Prepared& p) {
@@ -204,7 +192,6 @@ Prepared prepare(const Scene& scene, bool force_time_step) {
   Prepared p{build_world(scene, set), build_model(scene), {}, {}, {}, {}};
   check_restitution(scene, p.model);
   note_laws(scene, p);
-  check_energy(scene, p.world, p.model);
   check_shapes(scene, p);
   check_periodic(scene, p.world, p.model);
   check_bounds(scene, p.world);

@@ -305,7 +305,7 @@ const Section<Scene::Output>& output_keys() {
       key("orientation", Flag{}, &O::orientation, "Orientations of the particles in the frames."),
       key("energy", Flag{}, &O::energy,
           "The energy ledger in the time series: what is stored, what was lost to damping, sliding, rolling and impacts, the work of moving "
-          "bodies, and the error by which it does not close."),
+          "bodies, what particles carry in and out, and the error by which it does not close."),
       key("precision", Word<bool>{{{"single", true}, {"double", false}}}, &O::single_precision,
           "Of numbers in the frames; checkpoints and statistics are double."),
   }};
