@@ -260,7 +260,8 @@ def digits_of_lammps():
     """greatest distance of this script from what LAMMPS 22 Jul 2025 printed of its own test"""
     # gamma_n of `coeff_restitution` at e = 0.8, -2 sqrt(5/6) ln e / sqrt(pi^2 + ln^2 e) sqrt(2 E* a m_eff), in terms of alpha
     log_e = math.log(0.8)
-    own_test = Law("printed", alpha=-2 * math.sqrt(5 / 6) * log_e / math.sqrt(math.pi ** 2 + log_e ** 2) * math.sqrt(1.5), mu=0.5, k_roll=500, gamma_roll=50, mu_roll=0.1)
+    alpha = -2 * math.sqrt(5 / 6) * log_e / math.sqrt(math.pi ** 2 + log_e ** 2) * math.sqrt(1.5)
+    own_test = Law("printed", alpha=alpha, mu=0.5, k_roll=500, gamma_roll=50, mu_roll=0.1)
     state = simulate(own_test, STEP)
     return max(abs(p - q) for k, pair in PRINTED.items() for of, given in zip(state, pair) for p, q in zip(of[k - 1], given))
 

@@ -95,7 +95,8 @@ double arm_of(Lab& l) { return 0.5 * (1 + l.particles().position.data[0].z / pel
 // Until it rolls, friction takes 1 / (1 + m a^2 / I) of the energy of a sphere that was set down sliding, whatever its law.
 TEST(EnergyOfLaws, SlidingUntilItRolls) {
   for (const NormalLaw normal : {NormalLaw::hertz, NormalLaw::linear, NormalLaw::walton_braun, NormalLaw::kuwabara_kono})
-    for (const TangentialLaw law : {TangentialLaw::spring, TangentialLaw::coulomb, TangentialLaw::viscous, TangentialLaw::haff_werner, TangentialLaw::walton_braun}) {
+    for (const TangentialLaw law : {TangentialLaw::spring, TangentialLaw::coulomb, TangentialLaw::viscous, TangentialLaw::haff_werner,
+                                    TangentialLaw::walton_braun}) {
       const ContactModel laws{.normal = normal, .tangential = law};
       Lab l = on_a_floor(laws, 0.3, 0, {0.5, 0, 0}, {});
       const double arm = arm_of(l), kinetic = 0.5 * m * 0.25, slip = kinetic / (1 + 2.5 * arm * arm);
@@ -106,6 +107,32 @@ TEST(EnergyOfLaws, SlidingUntilItRolls) {
       const double of_verlet = 0.125 * 4e-5 * 4e-5 * force * force * (1 + 2.5 * arm * arm) / m;       // h^2/8 (F^2/m + T^2/I)
       EXPECT_LT(a.greatest, 1.1 * of_verlet + 1e-7 * kinetic) << name_of(laws);
     }
+}
+
+// A sphere that sways on its friction spring: after a quarter of a period the spring holds what slipped, m_red v^2 / 2, 1/m_red = 1/m + a^2/I.
+TEST(EnergyOfLaws, FrictionSpringHoldsTheSway) {
+  const double v = 1e-4;
+  Lab l = on_a_floor({.normal = NormalLaw::linear}, 100, 0, {v, 0, 0}, {});
+  pair_of(l).restitution = 1;
+  const double arm = arm_of(l), mobility = (1 + 2.5 * arm * arm) / m, slipping = 0.5 * v * v / mobility;
+  const double stiffness = pair_of(l).normal_stiffness * 4 * pair_of(l).shear_eff / pair_of(l).young_eff;
+  const double period = 2 * M_PI / std::sqrt(stiffness * mobility);
+  const Account quarter = run(l, period / 4, period / 4000), half = run(l, period / 2, period / 4000);
+  EXPECT_NEAR(quarter.now.elastic_tangential / slipping, 1, 0.01);
+  EXPECT_NEAR(half.now.elastic_tangential / slipping, 0, 0.01);
+  EXPECT_NEAR(half.flow.tangential / slipping, 0, 0.01);     // the spring's history is of first order
+}
+
+// A sphere on smooth ground that is turned a little: its rolling spring takes up I w^2 / 2.
+TEST(EnergyOfLaws, RollingSpringHoldsTheTurn) {
+  const double w = 0.01, turning = 0.2 * m * pellet_radius * pellet_radius * w * w;
+  Lab l = on_a_floor({.normal = NormalLaw::linear, .tangential = TangentialLaw::none}, 0, 5, {}, {0, w, 0});
+  const double stiffness = pair_of(l).normal_stiffness * 4 * pair_of(l).shear_eff / pair_of(l).young_eff;
+  const double period = 2 * M_PI / std::sqrt(stiffness / (0.4 * m));
+  const Account quarter = run(l, period / 4, period / 4000), half = run(l, period / 2, period / 4000);
+  EXPECT_NEAR(quarter.now.elastic_rolling / turning, 1, 0.01);
+  EXPECT_NEAR(half.now.elastic_rolling / turning, 0, 0.01);
+  EXPECT_NEAR(half.flow.rolling / turning, 0, 0.01);
 }
 
 // Slip under the viscous law decays with the rate gamma_t (1/m + a^2/I).
