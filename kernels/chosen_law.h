@@ -48,6 +48,7 @@ template <bool tangential, bool rolling, bool remembers_, bool keeps_moment_ = f
   ContactModel model;
 };
 
+// The scales of the table above, of a contact that has those of Hertz.
 inline void set_scales(NormalLaw law, double mass_eff, ContactState<double>& c) {
   if (is_linear(law)) c.contact_radius = 1, c.damping_scale = std::sqrt(mass_eff);
   else if (law == NormalLaw::kuwabara_kono) c.damping_scale = c.contact_radius;
