@@ -53,8 +53,9 @@ std::string svg_of(const Plot& plot) {
   const double dx = tick_of(x.high - x.low), dy = tick_of(y.high - y.low);
   const auto label = [](double v, double tick) { return fmt::format("{:.6g}", std::abs(v) < 1e-9 * tick ? 0.0 : v); };
   for (double v = std::ceil(x.low / dx) * dx; v <= x.high + 1e-9 * dx; v += dx) {
+    const std::string words = label(v, dx);
     svg.line(px(v), top, px(v), height - bottom, grid);
-    svg.text(px(v), height - bottom + 15, 10, "middle", soft, label(v, dx));
+    svg.text(std::min(px(v), width - text_width(words, 10) / 2), height - bottom + 15, 10, "middle", soft, words);   // the last one stays inside
   }
   for (double v = std::ceil(y.low / dy) * dy; v <= y.high + 1e-9 * dy; v += dy) {
     svg.line(left, py(v), width - right, py(v), grid);

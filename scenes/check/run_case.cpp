@@ -75,7 +75,7 @@ std::string label_of_row(const CheckSpec& spec, std::size_t row) {
   return spec.vary.empty() ? "" : fmt::format("{} = {}", spec.vary.front().first, spec.vary.front().second[row]);
 }
 
-std::string label_of(const CheckSpec& spec, std::size_t row, int seed) {
+std::string label_of(const CheckSpec& spec, std::size_t row, std::uint64_t seed) {
   std::string label = label_of_row(spec, row);
   if (spec.seeds > 1) label += fmt::format("{}seed {}", label.empty() ? "" : ", ", seed);
   return label;
@@ -91,7 +91,7 @@ std::vector<CaseRun> planned_runs(const CheckCase& c) {
         for (const int threads : spec.threads) {
           CaseRun r;
           r.method = m, r.row = row, r.seed = c.scene.seed + std::uint64_t(seed), r.threads = threads;
-          r.label = label_of(spec, row, seed);
+          r.label = label_of(spec, row, r.seed);
           runs.push_back(std::move(r));
         }
   return runs;

@@ -14,9 +14,9 @@ const std::string fall =
     "materials: [{name: glass, density: \"= dense\", youngs_modulus: 1 MPa}]\n"
     "particles: [{list: [{radius: 1 cm, position: [0, 0, 0], velocity: [0, 0, \"= v0\"]}]}]\n";
 
-CaseResult result_of(const std::string& check) {
+CaseResult result_of(const std::string& check, const std::string& more = "") {
   const SceneFolder folder;
-  return run_case(read_case(folder.write("fall.yaml", "check:\n  title: fall\n  group: contact\n  source: Galilei\n" + check + fall)));
+  return run_case(read_case(folder.write("fall.yaml", "check:\n  title: fall\n  group: contact\n  source: Galilei\n" + check + more + fall)));
 }
 
 TEST(RunCase, EveryMethodAndRowIsJudged) {
@@ -63,6 +63,30 @@ TEST(RunCase, SeedsRunsMethodsAndThreads) {
   for (const Verdict& v : r.verdicts) bits += v.what == "same bits at 1, 2 threads [1]";
   EXPECT_EQ(bits, 2u);                                // of each method
   EXPECT_EQ(r.verdicts.size(), 4u + 2 + 2 + 2);        // methods are compared by their means over the seeds
+}
+
+// `skred run` with the seed of a label is that run.
+TEST(RunCase, LabelsNameTheSeed) {
+  const std::string check = "  seeds: 2\n  methods: [sdem]\n  expect: [{what: speed, value: \"vz(0)\", expected: 0, tolerance: 2}]\n";
+  EXPECT_EQ(result_of(check).runs[0].label, "seed 1");           // the default of a scene
+  const CaseResult r = result_of("  vary: {v0: [1]}\n" + check, "seed: 40\n");
+  EXPECT_EQ(r.runs[0].label, "v0 = 1, seed 40");
+  EXPECT_EQ(r.runs[1].label, "v0 = 1, seed 41");
+  EXPECT_EQ(r.runs[1].seed, 41u);
+}
+
+// What `skred validate` refuses, `skred check` does not run.
+TEST(RunCase, AnOverlapAtTheStartIsRefused) {
+  const std::string check = "check: {title: f, group: contact, source: s, expect: [{what: x, value: 1, expected: 1}]}\n";
+  const std::string pair = "end_time: 1 ms\ngravity: [0, 0, 0]\nmaterials: [{name: glass, density: 2500, youngs_modulus: 1 MPa}]\n"
+                           "particles: [{list: [{radius: 0.01, position: [0, 0, 0]}, {radius: 0.01, position: [0.01, 0, 0]}]}]\n";
+  const SceneFolder folder;
+  const CaseResult refused = run_case(read_case(folder.write("pair.yaml", check + pair)));
+  ASSERT_EQ(refused.verdicts.size(), 2u);
+  EXPECT_THAT(refused.verdicts[0].failure, testing::HasSubstr("overlap at the start"));
+  EXPECT_EQ(refused.verdicts[0].method, "sdem");
+  EXPECT_TRUE(refused.verdicts[1].passed());          // nonsmooth DEM pushes them apart
+  EXPECT_TRUE(run_case(read_case(folder.write("pair.yaml", check + "start: {overlap_limit: 1}\n" + pair))).passed());
 }
 
 TEST(RunCase, AnIntervalOfConfidenceMustLieWithinTheTolerance) {
