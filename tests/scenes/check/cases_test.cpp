@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include "engine/io/temporary_folder.h"
 #include "scenes/check/report.h"
+#include "scenes/prepare.h"
 
 namespace skred {
 namespace {
@@ -20,6 +21,15 @@ std::vector<std::string> quick_cases() {
   for (const CheckCase& c : cases().all)
     if (!c.spec().slow) names.push_back(c.name);
   return names;
+}
+
+// A case is a scene that `skred run` and `skred validate` take as it stands, by a method that the case is about.
+TEST(CaseFiles, AreSoundScenes) {
+  for (const CheckCase& c : cases().all) {
+    const std::vector<Method>& methods = c.spec().methods;
+    EXPECT_NE(std::find(methods.begin(), methods.end(), c.scene.method), methods.end()) << c.name << ": give it `method`";
+    EXPECT_NO_THROW(prepare(c.scene, c.spec().force)) << c.name;
+  }
 }
 
 class CheckCases : public testing::TestWithParam<std::string> {};
