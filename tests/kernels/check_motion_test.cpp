@@ -1,6 +1,7 @@
 // When a search or a listing is due, the margins that follow, and what watching the motion finds.
 #include "kernels/check_motion.h"
 #include <gtest/gtest.h>
+#include <limits>
 #include "kernels/broadphase.h"
 #include "kernels/contact_listing.h"
 #include "kernels/reorder.h"
@@ -250,6 +251,39 @@ template <class Space> void fly(const Space& space) {
   EXPECT_GT(in_vain, steps / 2);
   EXPECT_LT(s.count.data[0], s.listings.data[0]);
   EXPECT_LT(s.listings.data[0], steps);
+}
+
+// One particle of many is not where it should be, whichever it is: every set of vector instructions sees it, and sees nothing else.
+TEST(CheckMotion, EveryPathSeesTheOneThatStrays) {
+  constexpr double infinite = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+  constexpr std::size_t n = 21;
+  const PeriodicSpace space{{0, 0, 0}, {30, infinite, infinite}};
+  struct Stray { Vec3 position, velocity; bool in_margin, well; };
+  const Stray strays[]{{{0, 0.5, 0}, {}, true, true},      // as far as it may
+                       {{0, 0.51, 0}, {}, false, true},
+                       {{30, 0, 0}, {}, true, false},      // its image is where it was listed, but it is out of bounds
+                       {{0, 0, -1.5}, {}, false, false},
+                       {{}, {0, 0, 50}, true, true},       // half a radius in a step
+                       {{}, {0, 0, 50.1}, true, false},
+                       {{nan, 0, 0}, {}, false, false},
+                       {{}, {0, nan, 0}, true, false}};
+  for (const VectorPath path : vector_paths())
+    for (const Stray& stray : strays)
+      for (std::size_t which = 0; which < n; ++which) {
+        Buffer<Vec3> listed(n), velocity(n);
+        for (std::size_t p = 0; p < n; ++p) listed[p] = {1.0 + double(p), 2, 0};
+        Buffer<Vec3> position = listed;
+        const Buffer<double> radius(n, 1.0), margin(n, 0.5);
+        position[which] = listed[which] + stray.position, velocity[which] = stray.velocity;
+        const MotionWatch<PeriodicSpace> watch{space, step, {{0, 0, -1}, {n + 1.0, 3, 1}}, position.data(), velocity.data(), listed.data(),
+                                               radius.data(), margin.data()};
+        const MotionLoop<PeriodicSpace> loop = motion_loop<PeriodicSpace>(path);
+        const AllOf with = loop(watch, 0, n);
+        EXPECT_EQ(with.in_margin, stray.in_margin) << name_of(path) << " " << &stray - strays << " " << which;
+        EXPECT_EQ(with.well, stray.well) << name_of(path) << " " << &stray - strays << " " << which;
+        const AllOf before = loop(watch, 0, which), behind = loop(watch, which + 1, n);
+        EXPECT_TRUE(before.in_margin && before.well && behind.in_margin && behind.well) << name_of(path) << " " << which;
+      }
 }
 
 TEST(CheckMotion, NoPairTouchesUnlisted) { fly(OpenSpace{}); }
