@@ -43,8 +43,8 @@ TEST_P(CheckCases, Passes) {
   EXPECT_TRUE(done.result.passed()) << text_of(done, true);
 }
 
-INSTANTIATE_TEST_SUITE_P(Quick, CheckCases, testing::ValuesIn(quick_cases()), [](const auto& info) {
-  std::string name = info.param;
+INSTANTIATE_TEST_SUITE_P(Quick, CheckCases, testing::ValuesIn(quick_cases()), [](const auto& chosen) {
+  std::string name = chosen.param;
   std::replace(name.begin(), name.end(), '-', '_');
   return name;
 });
