@@ -22,10 +22,6 @@ struct Seen {                    // of one chunk of particles
   }
 };
 
-bool inside(const Bounds& b, const Vec3& x) {
-  return (x.x >= b.min.x) & (x.x <= b.max.x) & (x.y >= b.min.y) & (x.y <= b.max.y) & (x.z >= b.min.z) & (x.z <= b.max.z);
-}
-
 // How far a point of the body's surface can have come since the search: |shift| + 2 sin(angle/2) times the lever.
 double surface_moved(const Pose& now, const Pose& then, double lever) {
   const Quaternion turn = conjugate(then.orientation) * now.orientation;
@@ -53,10 +49,6 @@ void CheckMotion<Space>::operator()(Parallel parallel, Read<&Clock::step> step, 
     const Vec3 d = space.shortest(position[p] - from[p]);
     return dot(d, d);
   };
-  const auto sound_speed = [&](std::size_t p) {
-    const double reach_of_step = 0.5 * radius[p];
-    return dot(velocity[p], velocity[p]) * time_step * time_step <= reach_of_step * reach_of_step;
-  };
   // Nonsmooth DEM finds what a step will touch before it is made: its particles may go as far as they like, if the lists know.
   const auto goes_on_well = [&](std::size_t p) { return std::sqrt(moved2(p, listed)) + time_step * norm(velocity[p]) + ahead.fall <= list_margin[p]; };
 
@@ -69,7 +61,7 @@ void CheckMotion<Space>::operator()(Parallel parallel, Read<&Clock::step> step, 
     auto [all_in_margin, all_well] = ahead.watched ? AllOf{true, true} : loop(watch, begin, end);
     for (std::size_t p = begin; p < end && ahead.watched; ++p) {
       all_in_margin &= goes_on_well(p);
-      all_well &= !bounded || inside(bounds, position[p]);
+      all_well &= !bounded || is_inside(bounds, position[p]);
       s.speed2 = std::max(s.speed2, dot(velocity[p], velocity[p]));
     }
     s.left_margin = !all_in_margin;
@@ -78,8 +70,8 @@ void CheckMotion<Space>::operator()(Parallel parallel, Read<&Clock::step> step, 
         s.blame(Trouble::not_finite, id[p]);
         continue;
       }
-      if (!ahead.watched && !sound_speed(p)) s.blame(Trouble::too_fast, id[p]);
-      if (bounded && !inside(bounds, position[p])) {
+      if (!ahead.watched && !is_sound_speed(velocity[p], radius[p], time_step)) s.blame(Trouble::too_fast, id[p]);
+      if (bounded && !is_inside(bounds, position[p])) {
         ++s.outside;
         if (stop_outside) s.blame(Trouble::out_of_bounds, id[p]);
       }

@@ -27,6 +27,16 @@ struct StepAhead {
   double widest = std::numeric_limits<double>::infinity();   // [m] widest margin that the space allows
 };
 
+// Of one particle, or of as many as the number type R is wide. NaN fails every comparison.
+template <class R> auto is_inside(const Bounds& b, const Vec3T<R>& x) {
+  return (x.x >= R(b.min.x)) & (x.x <= R(b.max.x)) & (x.y >= R(b.min.y)) & (x.y <= R(b.max.y)) & (x.z >= R(b.min.z)) & (x.z <= R(b.max.z));
+}
+// A contact lasts tens of steps: half a radius in one step is far beyond any sound motion.
+template <class R> auto is_sound_speed(const Vec3T<R>& velocity, const R& radius, double time_step) {
+  const R reach_of_step = R(0.5) * radius;
+  return dot(velocity, velocity) * R(time_step) * R(time_step) <= reach_of_step * reach_of_step;
+}
+
 // The part of the check that every step makes of every particle: one loop, compiled once per set of vector instructions.
 struct AllOf { bool in_margin, well; };
 template <class Space> struct MotionWatch {
@@ -36,8 +46,7 @@ template <class Space> struct MotionWatch {
   const Vec3 *position, *velocity, *listed;
   const double *radius, *list_margin;
 
-  // Whether of particles [first, last) all are within their margins, and all within bounds and of a sound speed: less than half a
-  // radius in a step - a contact lasts tens of steps.
+  // Whether of particles [first, last) all are within their margins, and all within bounds and of a sound speed.
   template <VectorPath path> static AllOf run(const MotionWatch&, std::size_t first, std::size_t last);
 };
 template <class Space> using MotionLoop = AllOf (*)(const MotionWatch<Space>&, std::size_t first, std::size_t last);
