@@ -24,7 +24,7 @@ void apply_law(const PairForces<ChosenLaw<tangential, rolling, remembers, keeps_
     if constexpr (rolling) contact.rolling_slip = in_tangent_plane(radius_i * at_i.spin.v - radius_j * at_j.spin.v, contact.normal);
     if constexpr (remembers) memory = c.memory[row];
     f = evaluate(pairs.law, contact, pairs.kinds.coefficients[c.material[i] * pairs.kinds.materials + c.material[j]], pairs.time_step, memory);
-    if constexpr (Law::rotates) torque_i = -pair.arm_i * f.couple, torque_j = -pair.other_arm_j * f.couple;
+    if constexpr (Law::rotates) torque_i = -pair.arm_i * f.couple, torque_j = -pair.arm_j * f.couple;
   }
   c.force[row] = f.force;
   if constexpr (remembers) c.memory[row] = memory;

@@ -11,10 +11,8 @@ namespace skred {
 // A contact of two particles: what the law sees, and the arms from both centres to the contact point [m].
 template <class R> struct PairState {
   ContactState<R> contact;
-  R arm_i, other_arm_j;                                      // of particles that are alike: one
+  R arm_i, arm_j;                                            // of particles that are alike: the first for both
 };
-template <class R> const R& arm_j(const AlikeParticles&, const PairState<R>& pair) { return pair.arm_i; }
-template <class R, class K> const R& arm_j(const LookedUpParticles<K>&, const PairState<R>& pair) { return pair.other_arm_j; }
 
 template <class R> struct PairRadiiAndMass { R radius_i, radius_j, radius_eff, mass_eff; };
 
@@ -62,7 +60,7 @@ void look_at(const Pairs& pairs, const PairColumns& c, const Lanes& row, const P
   s.damping_scale = sqrt(s.contact_radius * p.mass_eff);
   const R arm_i = pair.arm_i = p.radius_i - R(0.5) * s.overlap;
   const R arm_j = Pairs::Kinds::alike ? arm_i : p.radius_j - R(0.5) * s.overlap;
-  if constexpr (!Pairs::Kinds::alike) pair.other_arm_j = arm_j;
+  if constexpr (!Pairs::Kinds::alike) pair.arm_j = arm_j;
 
   Vec3T<R> u = moves_i.v - moves_j.v;
   s.normal_velocity = dot(u, s.normal);                      // spin adds nothing along n
@@ -112,7 +110,7 @@ void apply_law(const Pairs& pairs, const PairState<R>& pair, const PairColumns& 
   Vec3T<R> torque_i, torque_j;
   if constexpr (Law::rotates) {
     torque_i = select(touching, -pair.arm_i * f.couple, none);
-    torque_j = select(touching, -arm_j(pairs.kinds, pair) * f.couple, none);
+    torque_j = select(touching, -(Pairs::Kinds::alike ? pair.arm_i : pair.arm_j) * f.couple, none);
   }
   add_to_sums<Law>(force, torque_i, torque_j, rolling, c, row, block);
 }
