@@ -1,5 +1,6 @@
 // tests/physics/books.h - what the energy ledger says of an experiment.
 #pragma once
+#include <gtest/gtest.h>
 #include "tests/physics/lab.h"
 
 namespace skred::lab {
@@ -29,6 +30,19 @@ inline Account run(Lab lab, double time, double step, int threads = 1) {
   }
   static_cast<Books&>(r) = books_of(*s);
   return r;
+}
+
+// `end_of(energy, threads)` runs an experiment and tells its state hash and its books: the ledger leaves no trace, whatever the
+// number of threads, and `line` of it, what an experiment is about, has the same bits.
+template <class EndOf, class Line> void expect_same_bits_and_no_trace(const EndOf& end_of, const Line& line) {
+  const auto [plain, no_books] = end_of(false, 1);
+  const auto [one, books] = end_of(true, 1);
+  const auto [many, books_of_many] = end_of(true, 4);
+  EXPECT_EQ(one, plain);
+  EXPECT_EQ(many, plain);
+  EXPECT_EQ(books.error, books_of_many.error);
+  EXPECT_EQ(line(books.flow), line(books_of_many.flow));
+  EXPECT_EQ(line(no_books.flow), 0);
 }
 
 // Solved to rounding.

@@ -1,7 +1,7 @@
 // Every effect and every pair of effects left out equals the full step with their parameters at zero, bit for bit; and what is only
 // watched - orientations, the energy ledger - leaves no trace.
 #include <gtest/gtest.h>
-#include "tests/physics/lab.h"
+#include "tests/physics/stir.h"
 
 namespace skred::lab {
 namespace {
@@ -9,7 +9,6 @@ namespace {
 enum Effect { friction, rolling, restitution, several_radii, orientation, energy_ledger, effects };
 constexpr const char* names[] = {"Friction", "Rolling", "Restitution", "SeveralRadii", "Orientation", "EnergyLedger"};
 
-// A cloud falling onto a slope and a turning paddle, with a ball that may move.
 Lab stirred(Method method, const std::array<bool, effects>& in) {
   const double unused = method == Method::ndem ? 0 : 1;      // the restitution that needs no impact stage, or no damping
   Lab l(in[restitution] ? 0.4 : unused, in[friction] ? 0.5 : 0, in[rolling] ? 0.2 : 0);
@@ -18,12 +17,7 @@ Lab stirred(Method method, const std::array<bool, effects>& in) {
   l.model.gravity = {0, 0, -9.81};
   l.model.orientation = in[orientation];
   l.model.energy = in[energy_ledger];
-  add_cloud(l, 4, 2.05 * pellet_radius, 8, 1.0, in[several_radii]);
-  l.body(PlaneShape{}, {{0, 0, -4.5 * pellet_radius}, rotation_by({0.2, 0, 0})});
-  l.body(BoxShape{{0.03, 0.004, 0.01}}, {{0, 0, -5 * pellet_radius}, {}}, Motion::kinematic);
-  const double ball = 1.5 * pellet_radius, mass = 3 * sphere_mass(pellet_radius), inertia = 0.4 * mass * ball * ball;
-  l.body(SphereShape{ball}, {{0.002, 0, 6 * pellet_radius}, {}}, Motion::dynamic, mass, {inertia, inertia, inertia});
-  l.model.pieces = {{}, {MotionPiece{0, 1, {}, {0, 0, 20}, {}}}, {}};
+  add_stir(l, in[several_radii]);
   return l;
 }
 
