@@ -5,57 +5,69 @@
 // threads. Contacts that do not touch add zeros.
 // The last line of the integration (kernels/integrate.h) is here because both forces are at hand.
 #pragma once
+#include <algorithm>
 #include "engine/access.h"
-#include "kernels/integrate.h"
+#include "engine/vector_path.h"
+#include "kernels/inertia.h"
 
 namespace skred {
+
+// What turns the sums of a block into velocities: one loop, compiled once per set of vector instructions
+// (kernels/force_application_loop.h).
+template <bool rotates, class Inertia> struct VelocityUpdate {
+  Vec3 gravity;       // [m/s^2]
+  double time_step;   // h [s]; 0: forces only
+  Inertia inertia;
+  const double *mass = nullptr, *radius = nullptr;           // of each, unless all are alike
+  Vec3 *velocity = nullptr, *force = nullptr, *previous_force = nullptr;
+  Vec3 *spin = nullptr, *torque = nullptr, *previous_torque = nullptr;
+
+  // Of particles [first, last); the sums begin with that of `first`.
+  template <VectorPath path> static void run(const VelocityUpdate&, std::size_t first, std::size_t last, const Vec3* force_sum, const Vec3* torque_sum);
+};
+template <class V> using VelocityLoop = void (*)(const V&, std::size_t first, std::size_t last, const Vec3* force_sum, const Vec3* torque_sum);
+template <class V> VelocityLoop<V> velocity_loop(VectorPath path) {
+  return for_path(path, []<VectorPath p>() -> VelocityLoop<V> { return &V::template run<p>; });
+}
 
 template <bool contacts, bool body_contacts, bool rotates, class Inertia> struct ForceApplicationParticle {
   static constexpr const char* name = "force_application_particle";
 
-  Vec3 gravity;       // [m/s^2]
-  double time_step;   // h [s]; 0: forces only
-  Inertia inertia;
+  VelocityUpdate<rotates, Inertia> update;
+  VelocityLoop<VelocityUpdate<rotates, Inertia>> loop;
 
   void operator()(Parallel parallel, If<contacts, Read<&HaloIncidence::halo>> first_halo, If<contacts, Read<&Halo::particle>> halo_particle,
-                  If<contacts, Read<&Halo::sum>> halo_sum, If<contacts, Update<&ContactSums::force>> force_sum,
-                  If<contacts && rotates, Update<&ContactSums::torque>> torque_sum, If<body_contacts, Read<&BodyIncidence::first>> first_body,
-                  If<body_contacts, Read<&BodyContacts::force>> body_force,
+                  If<contacts, Read<&Halo::sum>> halo_sum, If<contacts, Read<&ContactSums::force>> force_sum,
+                  If<contacts && rotates, Read<&ContactSums::torque>> torque_sum, If<body_contacts, Read<&BodyIncidence::first>> first_body,
+                  If<body_contacts, Read<&BodyContacts::particle>> body_contact_of, If<body_contacts, Read<&BodyContacts::force>> body_force,
                   If<body_contacts && rotates, Read<&BodyContacts::torque>> body_torque, If<!Inertia::alike, Read<&Particles::mass>> mass,
                   If<rotates && !Inertia::alike, Read<&Particles::radius>> radius, Update<&Particles::force> force,
                   Update<&Particles::previous_force> previous_force, If<rotates, Update<&Particles::torque>> torque,
                   If<rotates, Update<&Particles::previous_torque>> previous_torque, Update<&Particles::velocity> velocity,
                   If<rotates, Update<&Particles::angular_velocity>> spin) const {
-    const std::size_t n = force.size();
-    const Inertia of = inertia;                              // a copy, which no column can lie on: quotients are taken once
-    parallel.chunks(n, contact_block, [&](std::size_t block, std::size_t begin, std::size_t end) {
-      if constexpr (contacts)
+    VelocityUpdate<rotates, Inertia> of_all = update;
+    of_all.mass = pointer(mass), of_all.radius = pointer(radius);
+    of_all.velocity = velocity.data(), of_all.force = force.data(), of_all.previous_force = previous_force.data();
+    of_all.spin = pointer(spin), of_all.torque = pointer(torque), of_all.previous_torque = pointer(previous_torque);
+    parallel.chunks(force.size(), contact_block, [&](std::size_t block, std::size_t begin, std::size_t end) {
+      thread_local Buffer<Vec3> f, t;                        // of the block's particles, beside the core
+      if constexpr (contacts) {
+        f.assign(force_sum.begin() + begin, force_sum.begin() + end);
+        if constexpr (rotates) t.assign(torque_sum.begin() + begin, torque_sum.begin() + end);
         for (Index row = first_halo[block]; row < first_halo[block + 1]; ++row) {
-          const Index p = halo_particle[row];
-          force_sum[p] += vector(halo_sum[row].force);
-          if constexpr (rotates) torque_sum[p] += vector(halo_sum[row].torque);
+          f[halo_particle[row] - begin] += vector(halo_sum[row].force);
+          if constexpr (rotates) t[halo_particle[row] - begin] += vector(halo_sum[row].torque);
         }
-      for (std::size_t p = begin; p < end; ++p) {
-        Vec3 f, t;
-        if constexpr (contacts) f = force_sum[p];
-        if constexpr (contacts && rotates) t = torque_sum[p];
-        if constexpr (body_contacts)
-          for (Index c = first_body[p]; c < first_body[p + 1]; ++c) {
-            f += body_force[c];
-            if constexpr (rotates) t += body_torque[c];
-          }
-        const double m = of.mass_of(mass, p);
-        f += m * gravity;
-
-        velocity[p] += (0.5 * time_step / m) * (f - mean(force[p], previous_force[p]));
-        previous_force[p] = time_step > 0 ? force[p] : f;
-        force[p] = f;
-        if constexpr (rotates) {
-          spin[p] += (0.5 * time_step / of.moment_of(mass, radius, p)) * (t - mean(torque[p], previous_torque[p]));
-          previous_torque[p] = time_step > 0 ? torque[p] : t;
-          torque[p] = t;
-        }
+      } else {
+        f.assign(end - begin, Vec3{});
+        if constexpr (rotates) t.assign(end - begin, Vec3{});
       }
+      if constexpr (body_contacts)
+        for (Index c = first_body[begin]; c < first_body[end]; ++c) {
+          f[body_contact_of[c] - begin] += body_force[c];
+          if constexpr (rotates) t[body_contact_of[c] - begin] += body_torque[c];
+        }
+      loop(of_all, begin, end, f.data(), t.data());
     });
   }
 };

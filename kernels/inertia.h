@@ -5,6 +5,9 @@
 
 namespace skred {
 
+// 2/5 m R^2 of a solid sphere [kg m^2].
+template <class R> constexpr R moment_of_sphere(R mass, R radius) { return R(0.4) * mass * radius * radius; }
+
 template <bool are_alike> struct Inertia {
   static constexpr bool alike = are_alike;
   double mass = 0, radius = 0;     // [kg], [m] of all; where they differ: of no use
@@ -13,10 +16,9 @@ template <bool are_alike> struct Inertia {
     if constexpr (alike) return mass;
     else return masses[p];
   }
-  // 2/5 m R^2 of a solid sphere [kg m^2].
   double moment_of(const auto& masses, const auto& radii, std::size_t p) const {
-    if constexpr (alike) return 0.4 * mass * radius * radius;
-    else return 0.4 * masses[p] * radii[p] * radii[p];
+    if constexpr (alike) return moment_of_sphere(mass, radius);
+    else return moment_of_sphere(masses[p], radii[p]);
   }
 };
 

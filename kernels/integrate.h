@@ -21,7 +21,7 @@ namespace skred {
 
 enum class Scheme { velocity_verlet, symplectic_euler };
 
-constexpr Vec3 mean(const Vec3& a, const Vec3& b) { return 0.5 * (a + b); }
+template <class R> constexpr Vec3T<R> mean(const Vec3T<R>& a, const Vec3T<R>& b) { return R(0.5) * (a + b); }
 
 template <Scheme scheme, bool rotates, bool oriented, class Space, class Inertia> struct Integrate {
   static constexpr const char* name = "integrate";

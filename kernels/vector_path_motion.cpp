@@ -1,6 +1,7 @@
 // The loops over particles for one set of vector instructions, like those over contacts in kernels/vector_path.cpp.
 #include "engine/periodic.h"
 #include "kernels/broadphase_loop.h"
+#include "kernels/force_application_loop.h"
 #include "kernels/motion_loop.h"
 
 namespace skred {
@@ -9,5 +10,12 @@ template std::size_t Surroundings<OpenSpace>::near<VectorPath::SKRED_PATH>(const
 template std::size_t Surroundings<PeriodicSpace>::near<VectorPath::SKRED_PATH>(const Surroundings&, const Vec3&, double, const Places*, const Places*, Index*);
 template AllOf MotionWatch<OpenSpace>::run<VectorPath::SKRED_PATH>(const MotionWatch&, std::size_t, std::size_t);
 template AllOf MotionWatch<PeriodicSpace>::run<VectorPath::SKRED_PATH>(const MotionWatch&, std::size_t, std::size_t);
+
+#define SKRED_INSTANTIATE_VELOCITY(...) \
+  template void VelocityUpdate<__VA_ARGS__>::run<VectorPath::SKRED_PATH>(const VelocityUpdate&, std::size_t, std::size_t, const Vec3*, const Vec3*);
+SKRED_INSTANTIATE_VELOCITY(true, Inertia<true>)
+SKRED_INSTANTIATE_VELOCITY(true, Inertia<false>)
+SKRED_INSTANTIATE_VELOCITY(false, Inertia<true>)
+SKRED_INSTANTIATE_VELOCITY(false, Inertia<false>)
 
 }  // namespace skred

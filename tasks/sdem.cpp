@@ -10,8 +10,12 @@ namespace {
 template <bool contacts, bool bodies, class Inertia>
 void add_application(Task& task, const Model& m, const Effects& e, double h, const Inertia& inertia) {
   // Torques exist where a law makes them; an orientation that is only watched has none.
-  if (e.friction || e.rolling) task.add(ForceApplicationParticle<contacts, bodies, true, Inertia>{m.gravity, h, inertia});
-  else task.add(ForceApplicationParticle<contacts, bodies, false, Inertia>{m.gravity, h, inertia});
+  const auto add = [&]<bool rotates> {
+    using Update = VelocityUpdate<rotates, Inertia>;
+    task.add(ForceApplicationParticle<contacts, bodies, rotates, Inertia>{Update{m.gravity, h, inertia}, velocity_loop<Update>(m.vector_path)});
+  };
+  if (e.friction || e.rolling) add.template operator()<true>();
+  else add.template operator()<false>();
 }
 
 template <class Inertia> void add_application(Task& task, const Model& m, const Effects& e, double h, const Inertia& inertia) {

@@ -33,7 +33,8 @@ using Forces = PairForces<Law, VariousParticles, OpenSpace>;
 void calculate_and_apply(World& w, VectorPath path = VectorPath::scalar) {
   const Forces pairs{{}, {1, {{6e6, 2e7, 1.8e3, 3.2e3, 0.5, 0.05}}}, {}, 1e-5};
   call(ForceCalculationParticleParticle<Law, VariousParticles, OpenSpace>{pairs, pair_loop<Forces>(path)}, w);
-  call(ForceApplicationParticle<true, false, true, Inertia<false>>{{}, 1e-5, {}}, w);
+  using Update = VelocityUpdate<true, Inertia<false>>;
+  call(ForceApplicationParticle<true, false, true, Inertia<false>>{Update{{}, 1e-5, {}}, velocity_loop<Update>(path)}, w);
 }
 
 TEST(ContactSums, AreThoseOfAllContactsOfAParticle) {
