@@ -54,6 +54,7 @@ contact.rolling
                      rolling_friction mu_r  1  >= 0
                    Ai et al. 2011, model A; Pettersson 2015, eq (2.26)
   viscous          M = -mu R_eff F_n (R_i w_i - R_j w_j), its part in the tangent plane; R_i (w_i - w_body) at a body
+                   of unequal spheres it feeds energy in while w_j / w_i is between 1 and R_i / R_j
                      rolling_viscosity mu  s/m  >= 0
                    Ai et al. 2011, model B; Pettersson 2015, eq (2.27)
   none             no rolling resistance

@@ -256,6 +256,23 @@ TEST(RollingLaws, ViscousOfAPair) {
   EXPECT_EQ(rolling_moment(RollingLaw::viscous, contact, contact, k, 7, 1, memory), (Vec3{0, -0.5 * 2 * 7 * 3, 0}));
 }
 
+// Its power is -mu R_eff F_n (R_1 w_1 - R_2 w_2) (w_1 - w_2): of unequal spheres it feeds energy in while w_2 / w_1 is between 1 and R_1 / R_2.
+// That is in the equation, not in what is made of it, and `skred models` says so.
+TEST(RollingLaws, ViscousOfUnequalSpheresGivesEnergyBetweenTwoSpins) {
+  ChosenCoefficients k;
+  k.rolling_viscosity = 0.5;
+  const double r_1 = 2, r_2 = 1, w_1 = 3;
+  ChosenContact contact{};
+  contact.radius_eff = r_1 * r_2 / (r_1 + r_2);
+  ContactMemory memory;
+  for (const double ratio : {0.5, 1.5, 2.5}) {
+    const double w_2 = ratio * w_1;
+    contact.rolling_slip = {0, r_1 * w_1 - r_2 * w_2, 0};
+    const double power = rolling_moment(RollingLaw::viscous, contact, contact, k, 7, 1, memory).y * (w_1 - w_2);
+    EXPECT_EQ(power > 0, ratio > 1 && ratio < r_1 / r_2) << ratio << ": " << power;
+  }
+}
+
 // A sphere on smooth ground that is turned a little: I dw/dt = -k_r theta - c_r w, I = 2/5 m R^2, k_r = k_t R^2, c_r = 2 eta sqrt(7/5 m R^2 k_r).
 TEST(RollingLaws, DashpotOfTheSpringDampsItsOscillation) {
   const double mass = sphere_mass(pellet_radius), r2 = pellet_radius * pellet_radius, small = 0.01;
