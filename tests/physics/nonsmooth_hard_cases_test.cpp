@@ -155,7 +155,7 @@ TEST(HardCases, WedgeHoldsASphereThatWasPressedIn) {
       if (mu > std::tan(alpha)) {
         EXPECT_GT(stress, 0.1) << mu;
         EXPECT_LT(seen.max_speed, 1e-6) << mu;
-        if (method == Method::ndem) EXPECT_NEAR(stress, 1, 1e-6) << mu;   // friction holds it where it is
+        if (method == Method::ndem) { EXPECT_NEAR(stress, 1, 1e-6) << mu; }   // friction holds it where it is
       } else {
         EXPECT_EQ(seen.body_contacts, 0u) << mu;
         EXPECT_GT(velocity(*s, 0).z, 0) << mu;
@@ -229,7 +229,7 @@ TEST(HardCases, ForcesOfAPackDoNotDependOnTheOrderOfContacts) {
     for (const auto& [at, f] : low) spread = std::max(spread, high[at] - f), mean += f / double(low.size());
     EXPECT_GT(low.size(), 2 * pack.place.size());
     RecordProperty(friction > 0 ? "spread_with_friction" : "spread", std::to_string(spread / mean * 1e9) + "e-9");
-    if (friction == 0) EXPECT_LT(spread / mean, 1e-6);
+    if (friction == 0) { EXPECT_LT(spread / mean, 1e-6); }
   }
 }
 
