@@ -6,12 +6,15 @@
 
 namespace skred {
 
-// Active for start <= t < end [s].
+// Active for start <= t < end [s]. With a frequency f the piece swings: both velocities are the greatest, and go with
+// cos(2 pi f (t - start) + phase).
 struct MotionPiece {
   double start = 0, end = 0;
   Vec3 velocity;               // [m/s]
   Vec3 angular_velocity;       // [rad/s] about the axis through `point`
   Vec3 point;                  // [m]
+  double frequency = 0;        // [Hz] >= 0; 0: steady
+  double phase = 0;            // [rad]
 };
 
 struct BodyState {

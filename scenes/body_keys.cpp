@@ -172,6 +172,10 @@ const Section<MotionSpec>& motion_keys() {
       key("angular_velocity", Number{"rad/s"}, &M::angular_velocity, "Of the rotation about the axis through the point."),
       key("axis", Direction{}, &M::axis, "Of the rotation, in the world."),
       key("point", Vector{"m"}, &M::point, "A point of the axis."),
+      key("frequency", Number{"Hz", {.min = 0, .max = 1e6}}, &M::frequency,
+          "Of a swing; 0: steady. Both velocities then go with cos(2 pi frequency (t - start) + phase): an amplitude A needs 2 pi frequency A."),
+      key("phase", Number{"rad", any_number}, &M::phase, "Of the swing at its start; 90 deg: it starts at rest, and against the velocity.")
+          .when([](const M& m) { return m.frequency > 0; }, "frequency is not 0"),
   }, [](Reader& r, const Node& node, M& m) {
     if (!(m.start < m.end))
       r.error(node, "start " + number_text(m.start) + " s must be before end " + number_text(m.end) + " s");

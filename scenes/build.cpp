@@ -133,7 +133,7 @@ Model build_model(const Scene& scene) {
     m.bodies_at_start.push_back(body.pose);
     auto& pieces = m.pieces.emplace_back();
     for (const MotionSpec& s : body.pieces)
-      pieces.push_back({s.start, s.end, s.velocity, s.angular_velocity * s.axis, s.point});
+      pieces.push_back({s.start, s.end, s.velocity, s.angular_velocity * s.axis, s.point, s.frequency, s.phase});
   }
   for (const RemoveSpec& r : scene.remove) m.removers.push_back({r.region, r.start, r.end, r.interval});
   for (const InflowSpec& f : scene.inflow) m.inflows.push_back(inflow_of(scene, f, m.inflows.size()));

@@ -79,6 +79,8 @@ struct MotionSpec {
   Vec3 velocity;                               // [m/s]
   double angular_velocity = 0;                 // [rad/s] about the axis through the point
   Vec3 axis{0, 0, 1}, point;
+  double frequency = 0;                        // [Hz] of a swing, whose greatest velocities the above are; 0: steady
+  double phase = 0;                            // [rad]
 };
 
 enum class BodyMotion { fixed, kinematic, dynamic };

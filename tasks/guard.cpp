@@ -17,6 +17,7 @@ std::string text(const char* format, double a, double b = 0, double c = 0) {
 
 // Limits. Each is where a run becomes wrong rather than inexact; scenes in daily use stay well within them.
 constexpr double least_steps_in_contact = 20;      // below, restitution errs by per cents (tests/physics/normal_impact_test.cpp: 0.178 of 0.18 at 25)
+constexpr double least_steps_in_swing = 20;        // a step then turns the phase by a third of a radian
 constexpr double most_of_springs = 0.5;            // of 2 / omega_max
 constexpr double most_of_dashpots = 0.9;           // of 2 / lambda
 constexpr double most_bed_overlap = 0.08;          // of the radius: Hertz holds for small strain, a / R = 0.2 here
@@ -73,6 +74,7 @@ class Guard {
     }
     overlap_of_bed();
     periodic_box();
+    swings();
     skin();
     dissipation();
     return out_;
@@ -174,6 +176,17 @@ class Guard {
     say("motion in a step / room in the periodic box", text("%.2g", motion / widest), "<= 0.5", motion > 0.5 * widest,
         text("two particles that go %.3g mm in a step could meet two images of each other, and the run stops; a longer box or a smaller step helps",
              motion * 1e3));
+  }
+
+  void swings() {
+    double fastest = 0;
+    for (const auto& pieces : m_.pieces)
+      for (const MotionPiece& p : pieces) fastest = std::max(fastest, p.frequency);
+    if (!(fastest > 0)) return;
+    const double steps = 1 / (fastest * h());
+    say("steps in a swing of a body", text("%.3g", steps), text(">= %g", least_steps_in_swing), steps < least_steps_in_swing,
+        text("at %.3g Hz a body jumps from place to place: its blows will be too hard or missed; a time step of %.2g s has 40 steps in it", fastest,
+             1 / (40 * fastest)));
   }
 
   void skin() {

@@ -112,6 +112,29 @@ TEST(KinematicBody, PrescribedMotionIsExactInTime) {
   EXPECT_EQ(end.angular_velocity, Vec3{});
 }
 
+TEST(KinematicBody, SwingsExactlyInTime) {
+  const double f = 4, w = 2 * M_PI * f, amplitude = 0.05;
+  const MotionPiece shake{.start = 1, .end = 1.5, .velocity = {0, 0, w * amplitude}, .frequency = f, .phase = M_PI / 2};   // from rest, downwards
+  const std::vector<MotionPiece> pieces{shake};
+  for (const double t : {1.0, 1.01, 1.3, 1.49}) {
+    const BodyState s = prescribed_state({{0, 0, 2}, {}}, pieces, t);
+    EXPECT_NEAR(s.pose.position.z, 2 + amplitude * (std::cos(w * (t - 1)) - 1), 1e-15);
+    EXPECT_NEAR(s.velocity.z, -w * amplitude * std::sin(w * (t - 1)), 1e-14);
+  }
+  EXPECT_EQ(prescribed_state({{0, 0, 2}, {}}, pieces, 0.9).velocity, Vec3{});
+  EXPECT_EQ(prescribed_state({{0, 0, 2}, {}}, pieces, 1.5).velocity, Vec3{});
+
+  const double angle = 0.3;                                  // [rad] to either side, about the origin
+  const std::vector<MotionPiece> rocking{{.start = 0, .end = 9, .angular_velocity = {0, 0, w * angle}, .frequency = f}};
+  for (const double t : {0.0, 0.04, 0.1, 2.2}) {
+    const BodyState s = prescribed_state({{2, 0, 0}, {}}, rocking, t);
+    const double now = angle * std::sin(w * t), rate = w * angle * std::cos(w * t);
+    EXPECT_LT(norm(s.pose.position - Vec3{2 * std::cos(now), 2 * std::sin(now), 0}), 1e-14);
+    EXPECT_LT(norm(s.velocity - rate * Vec3{-2 * std::sin(now), 2 * std::cos(now), 0}), 1e-13);
+    EXPECT_NEAR(s.angular_velocity.z, rate, 1e-14);
+  }
+}
+
 // A turning plane carries a resting sphere along without slip; a lifted one gives it its speed.
 TEST(KinematicBody, BeltCarriesASphere) {
   Lab l(0.18, 0.9, 0.5);

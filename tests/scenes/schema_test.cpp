@@ -91,7 +91,7 @@ bodies:
                   ring: {count: 7, axis: [1, 1, 1]}}]
   - name: k
     motion: kinematic
-    pieces: [{start: -1, end: 0.3}, {start: 1, velocity: [1, 1, 1], angular_velocity: 3, axis: [1, 2, 2.5], point: [0, 0, 1]}]
+    pieces: [{start: -1, end: 0.3}, {start: 1, velocity: [1, 1, 1], angular_velocity: 3, axis: [1, 2, 2.5], point: [0, 0, 1], frequency: 3, phase: 90 deg}]
     geometries: [{material: a, plane: {normal: [1, 2, 3], point: [4, 5, 6]}}, {material: a, cylinder: {radius: 1, length: 2}}]
 start: {overlap_limit: 0.5, relax: true}
 limits: {overlap: 0.2}

@@ -137,6 +137,14 @@ TEST(Guard, PeriodicBox) {
   EXPECT_EQ(verdict(l, "motion in a step / room", 20), Verdict::warning);
 }
 
+TEST(Guard, StepsInASwing) {
+  Lab l = nonsmooth(bed(2, 2));                              // 1 ms
+  l.model.pieces = {{MotionPiece{.end = 1, .velocity = {0, 0, 1}, .frequency = 40}}};
+  EXPECT_EQ(verdict(l, "steps in a swing of a body"), Verdict::fine);
+  l.model.pieces[0][0].frequency = 60;
+  EXPECT_EQ(verdict(l, "steps in a swing of a body"), Verdict::warning);
+}
+
 TEST(Guard, Skin) {
   Lab l = bed(2, 2);
   l.model.skin = 1e-3;
