@@ -10,7 +10,7 @@ std::vector<BodyLoad> body_loads(std::span<const Index> particle, std::span<cons
   struct Entry { Index id, contact; };
   std::vector<Entry> touching;
   for (Index c = 0; c < particle.size(); ++c)
-    if (overlap[c] > 0) touching.push_back({id[particle[c]], c});
+    if (touches(overlap[c], force[c])) touching.push_back({id[particle[c]], c});
   std::sort(touching.begin(), touching.end(),               // rows of one particle already stand by geometry and slot
             [](const Entry& a, const Entry& b) { return a.id != b.id ? a.id < b.id : a.contact < b.contact; });
 

@@ -8,6 +8,9 @@ namespace skred {
 
 struct BodyLoad { Vec3 force, torque; };   // [N], [N m] about the origin of the body's frame
 
+// What overlaps now, or has been pushed apart in this step: nonsmooth DEM turns impacts round before they overlap.
+inline bool touches(double overlap, const Vec3& force) { return overlap > 0 || force != Vec3{}; }
+
 // Of the particles. Contacts are taken by ascending (particle id, geometry, slot). `rolling_torque` may be empty.
 std::vector<BodyLoad> body_loads(std::span<const Index> particle, std::span<const Index> geometry, std::span<const double> overlap,
                                  std::span<const Vec3> normal, std::span<const Vec3> force, std::span<const Vec3> rolling_torque,

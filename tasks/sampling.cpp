@@ -22,7 +22,7 @@ template <class Visit> void for_each_touching_pair(const Simulation& sim, const 
       Vec3 branch = p.position.data[r] - p.position.data[q];
       if (space) branch = space->shortest(branch);
       const double distance = norm(branch), overlap = p.radius.data[r] + p.radius.data[q] - distance;
-      if (overlap > 0) visit(k, overlap, distance > 0 ? (1 / distance) * branch : Vec3{0, 0, 1});
+      if (touches(overlap, c.force.data[k])) visit(k, overlap, distance > 0 ? (1 / distance) * branch : Vec3{0, 0, 1});
     }
 }
 
@@ -31,7 +31,7 @@ template <class Visit> void for_each_touching_body(const Simulation& sim, const 
   const auto& first = std::get<BodyIncidence>(sim.world()).first.data;
   for (const Index r : rows)
     for (Index k = first[r]; k < first[r + 1]; ++k)
-      if (c.overlap.data[k] > 0) visit(k, r);
+      if (touches(c.overlap.data[k], c.force.data[k])) visit(k, r);
 }
 
 // Touching contacts of each particle, bodies included, by row.

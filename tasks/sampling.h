@@ -13,7 +13,7 @@ namespace skred {
 struct Measures {
   double kinetic_energy = 0, rotational_energy = 0;   // [J]; translation only, rotation only
   double potential_energy = 0;                        // [J] in the uniform gravity, zero at the origin
-  std::size_t contacts = 0, body_contacts = 0;        // that touch
+  std::size_t contacts = 0, body_contacts = 0;        // that touch (kernels/body_forces.h)
   double coordination_number = 0;                     // contacts per particle, with other particles and with bodies
   double normal_force = 0, body_normal_force = 0;     // [N] sums of magnitudes
   double max_overlap_ratio = 0;                       // greatest overlap / smaller radius

@@ -178,6 +178,34 @@ TEST(Nonsmooth, MomentumIsKept) {                              // T22
   EXPECT_LT(norm(l1 - l0), 1e-11 * turn);
 }
 
+// What leaves the particles must arrive at the walls, impacts too, although these are turned round before anything overlaps.
+TEST(Nonsmooth, WallsTakeTheMomentumThatParticlesLose) {
+  NonsmoothLab l(0.8, 0.3, 0.1);
+  l.under_gravity();
+  l.body(PlaneShape{});
+  l.body(BoxShape{{0.5, 0.5, 0.1}}, {{4 * R + 0.5, 0, 0}, {}});
+  for (int k = 0; k < 27; ++k) l.sphere(2.5 * R * Vec3{k % 3 - 1.0, k / 3 % 3 - 1.0, 1.0 + k / 9}, {1.0 + 0.1 * k, 0, -0.2 * (k % 5)});
+  auto s = l.build();
+  s->start();
+  const auto momentum = [&] {
+    Vec3 sum;
+    const Particles& p = std::get<Particles>(s->world());
+    for (std::size_t r = 0; r < p.rows(); ++r) sum += p.mass.data[r] * p.velocity.data[r];
+    return sum;
+  };
+  const Vec3 weight = 27 * m * l.model.gravity;
+  std::size_t impacts = 0;
+  for (int k = 0; k < 300; ++k) {
+    const Vec3 before = momentum();
+    s->step();
+    const Measures now = measure(*s);
+    impacts += std::size_t(std::get<Solver>(s->world()).impacts.data[0]);
+    const Vec3 walls = now.loads[0].force + now.loads[1].force, missing = momentum() - before - l.model.time_step * (weight - walls);
+    ASSERT_LT(norm(missing), 1e-12 * (norm(before) + norm(weight))) << k;
+  }
+  EXPECT_GT(impacts, 100u);
+}
+
 TEST(Nonsmooth, SameBitsForAnyThreadsOrdersAndVectors) {
   const auto hash = [](int threads, VectorPath path, Execution how, int reorder, double skin) {
     NonsmoothLab lab(0.3, 0.6, 0.2);
