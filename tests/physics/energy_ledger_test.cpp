@@ -121,10 +121,10 @@ TEST_P(EnergyLedgerOf, ABoxThatSlides) {
   EXPECT_LT(std::abs(after.error), (smooth() ? 1e-4 : 1e-2) * after.start.total());
 }
 
-Lab stirred_cloud() {
+Lab stirred_cloud(Motion of_floor = Motion::fixed) {
   Lab l(0.18, 0.91, 0.3211);
   l.model.gravity = {0, 0, -g};
-  l.body(PlaneShape{}, {{0, 0, -0.03}, {}});
+  l.body(PlaneShape{}, {{0, 0, -0.03}, {}}, of_floor);
   add_cloud(l, 4, 2.1 * pellet_radius, 3, 1.0);
   return l;
 }
@@ -146,6 +146,14 @@ TEST_P(EnergyLedgerOf, Drum) {
   l.model.pieces = {{MotionPiece{0, 10, {0, 0, 0}, {0, 8, 0}, {}}}};
   const Account a = expect_order(l, 0.2, smooth() ? 3e-5 : 1.2e-3);
   EXPECT_GT(a.flow.bodies, 0.015);                           // [J]
+}
+
+TEST_P(EnergyLedgerOf, AShakenFloor) {
+  Lab l = stirred_cloud(Motion::kinematic);
+  const double w = 2 * M_PI * 20;
+  l.model.pieces = {{MotionPiece{.end = 10, .velocity = {0, 0, w * 0.004}, .frequency = 20}}};
+  const Account a = expect_order(l, 0.2, smooth() ? 1e-4 : 3e-3);
+  EXPECT_GT(a.flow.bodies, 0.05);                            // [J]
 }
 
 // A plate that presses a sphere down and stops: its work is what the springs hold, and what the dashpots took. A prescribed velocity that
