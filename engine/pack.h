@@ -24,6 +24,21 @@ template <class R> inline constexpr int lanes = stdx::is_simd_v<R> ? int(sizeof(
 inline bool is_set(bool mask, int) { return mask; }
 template <class Abi> bool is_set(const stdx::simd_mask<double, Abi>& mask, int lane) { return mask[lane]; }
 
+// One bit a lane, the first the lowest.
+inline unsigned bits(bool mask) { return mask; }
+template <class Abi> unsigned bits(const stdx::simd_mask<double, Abi>& mask) {
+#if defined(__AVX__) && !defined(__AVX512F__)
+  if constexpr (stdx::simd_mask<double, Abi>::size() == 4) {
+    stdx::simd<double, Abi> sign(0);
+    where(mask, sign) = -1;
+    return unsigned(_mm256_movemask_pd(static_cast<__m256d>(sign)));
+  }
+#endif
+  unsigned out = 0;
+  for (std::size_t k = 0; k < mask.size(); ++k) out |= unsigned(mask[k]) << k;
+  return out;
+}
+
 // Any rows of a table, one per lane; the first `count` count.
 template <class R> struct AnyRows {
   std::size_t row[lanes<R>];

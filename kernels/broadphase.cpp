@@ -102,7 +102,7 @@ void Broadphase<Space>::operator()(Parallel parallel, Read<&Search::due> due, Re
             for (int a = 0; a < nx; ++a) look(layout.index(xs[a], ys[b], zs[c]), layout.index(xs[a], ys[b], zs[c]));
           }
         }
-      if (near.size() <= candidates) near.resize(2 * candidates + 1);
+      if (near.size() < candidates + 4) near.resize(2 * candidates + 4);
       const std::size_t count = loop(surroundings, x, mine, around.data(), around_end, near.data());
       if (keys.size() < count) keys.resize(2 * count);
       Key* end_of_keys = keys.data();

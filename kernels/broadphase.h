@@ -19,7 +19,7 @@ template <class Space> struct Surroundings {
   const Vec3* position;
   const double* reach;
 
-  // Writes the places that are nearer to x than `mine` and their own reach, and tells how many. Writes one more number.
+  // Writes the places that are nearer to x than `mine` and their own reach, and tells how many. Writes up to four more numbers.
   template <VectorPath path>
   static std::size_t near(const Surroundings&, const Vec3& x, double mine, const Places* first, const Places* last, Index* out);
 };

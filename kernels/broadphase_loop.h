@@ -1,9 +1,23 @@
 // kernels/broadphase_loop.h - which places of the grid are near a particle (kernels/broadphase.h).
 #pragma once
+#include <array>
+#include <cstring>
 #include "engine/pack.h"
 #include "kernels/broadphase.h"
 
 namespace skred {
+
+using FourIndices [[gnu::vector_size(4 * sizeof(Index))]] = Index;
+
+// Of four bits: which are set, from the lowest on.
+struct SetBits { std::array<Index, 4> which; std::size_t count; };
+inline constexpr auto set_bits = [] {
+  std::array<SetBits, 16> out{};
+  for (unsigned bits = 0; bits < 16; ++bits)
+    for (Index k = 0; k < 4; ++k)
+      if (bits >> k & 1) out[bits].which[out[bits].count++] = k;
+  return out;
+}();
 
 template <class Space> template <VectorPath path> [[gnu::flatten]]
 std::size_t Surroundings<Space>::near(const Surroundings& s, const Vec3& at, double mine, const Places* first, const Places* last, Index* out) {
@@ -15,10 +29,15 @@ std::size_t Surroundings<Space>::near(const Surroundings& s, const Vec3& at, dou
       const FullRange<R> row{k};
       const Vec3T<R> d = s.space.shortest(load<R>(s.position, row) - x);
       const R touch = R(mine) + load<R>(s.reach, row);
-      const auto near = dot(d, d) < touch * touch;
-      for (Index lane = 0; lane < Index(lanes<R>); ++lane) { // no branch on nearness: which of them are near is a matter of chance
-        out[count] = k + lane;
-        count += (k + lane < places->last) & is_set(near, int(lane));
+      const Index left = places->last - k;
+      unsigned near = bits(dot(d, d) < touch * touch) & (left < Index(lanes<R>) ? (1u << left) - 1 : ~0u);
+      for (Index four = 0; four < Index(lanes<R>); four += 4, near >>= 4) {   // no branch on nearness: which of them are near is a matter of chance
+        const SetBits& in = set_bits[near & 15];
+        FourIndices places_near;
+        std::memcpy(&places_near, in.which.data(), sizeof places_near);
+        places_near += k + four;
+        std::memcpy(out + count, &places_near, sizeof places_near);
+        count += in.count;
       }
     }
   return count;
