@@ -81,6 +81,8 @@ void ContactListing<Space>::operator()(Parallel parallel, Read<&Search::list_due
       const Vec3 x = position[p];
       const double mine = radius[p] + margin[p];
       for (Index e = first[p]; e < first[p + 1]; ++e) {
+        const Index later = row[std::min<std::size_t>(e + 16, row.size() - 1)];   // where rows of neighbours lie, no processor guesses
+        __builtin_prefetch(&position[later]), __builtin_prefetch(&radius[later]), __builtin_prefetch(&margin[later]);
         const Index q = row[e];
         const Vec3 d = space.shortest(x - position[q]);
         const double reach = mine + (radius[q] + margin[q]);
