@@ -11,7 +11,7 @@ using FourIndices [[gnu::vector_size(4 * sizeof(Index))]] = Index;
 
 // Of four bits: which are set, from the lowest on.
 struct SetBits { std::array<Index, 4> which; std::size_t count; };
-inline constexpr auto set_bits = [] {
+constexpr auto set_bits = [] {
   std::array<SetBits, 16> out{};
   for (unsigned bits = 0; bits < 16; ++bits)
     for (Index k = 0; k < 4; ++k)

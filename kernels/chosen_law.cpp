@@ -1,7 +1,8 @@
-// kernels/chosen_law.cpp - the loop over pairs of particles for laws that are chosen at run time, on plain doubles.
+// kernels/chosen_law.cpp - the loops over contacts for laws that are chosen at run time, on plain doubles.
 #include "engine/periodic.h"
 #include "kernels/chosen_law.h"
 #include "kernels/force_calculation_loop.h"
+#include "kernels/force_calculation_particle_body_loop.h"
 #include "kernels/laws.h"
 
 namespace skred {
@@ -34,7 +35,9 @@ void apply_law(const PairForces<ChosenLaw<tangential, rolling, remembers, keeps_
 
 #define SKRED_INSTANTIATE(...) \
   template void PairForces<__VA_ARGS__>::run<VectorPath::scalar>(const PairForces&, const PairColumns&, std::size_t, std::size_t, const PairBlock&);
-#define SKRED_INSTANTIATE_LAW(LAW) SKRED_INSTANTIATE(LAW, ChosenParticles, OpenSpace) SKRED_INSTANTIATE(LAW, ChosenParticles, PeriodicSpace)
+#define SKRED_INSTANTIATE_LAW(LAW) \
+  SKRED_INSTANTIATE(LAW, ChosenParticles, OpenSpace) SKRED_INSTANTIATE(LAW, ChosenParticles, PeriodicSpace) \
+  template void WallForces<LAW>::run<VectorPath::scalar>(const WallForces&, const WallColumns&, std::size_t, std::size_t);
 
 SKRED_FOR_EACH_CHOSEN_LAW(SKRED_INSTANTIATE_LAW)
 

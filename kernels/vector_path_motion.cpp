@@ -1,7 +1,9 @@
-// The loops over particles for one set of vector instructions, like those over contacts in kernels/vector_path.cpp.
+// The loops over particles, and over their contacts with walls, for one set of vector instructions, like those over contacts in kernels/vector_path.cpp.
 #include "engine/periodic.h"
 #include "kernels/broadphase_loop.h"
 #include "kernels/force_application_loop.h"
+#include "kernels/force_calculation_particle_body_loop.h"
+#include "kernels/laws.h"
 #include "kernels/motion_loop.h"
 
 namespace skred {
@@ -13,6 +15,9 @@ template AllOf MotionWatch<PeriodicSpace>::run<VectorPath::SKRED_PATH>(const Mot
 
 #define SKRED_INSTANTIATE_VELOCITY(...) \
   template void VelocityUpdate<__VA_ARGS__>::run<VectorPath::SKRED_PATH>(const VelocityUpdate&, std::size_t, std::size_t, const Vec3*, const Vec3*);
+#define SKRED_INSTANTIATE_WALLS(LAW) \
+  template void WallForces<LAW>::run<VectorPath::SKRED_PATH>(const WallForces&, const WallColumns&, std::size_t, std::size_t);
+SKRED_FOR_EACH_LAW(SKRED_INSTANTIATE_WALLS)
 SKRED_INSTANTIATE_VELOCITY(true, Inertia<true>)
 SKRED_INSTANTIATE_VELOCITY(true, Inertia<false>)
 SKRED_INSTANTIATE_VELOCITY(false, Inertia<true>)

@@ -72,7 +72,7 @@ template <class Law> void add_kernels(Task& task, const World& w, const Model& m
     if (m.periodic) add_in(*m.periodic);
     else add_in(OpenSpace{});
   }
-  if (e.bodies) task.add(ForceCalculationParticleBody<Law>{law, m.pairs.count, table, h});
+  if (e.bodies) task.add(ForceCalculationParticleBody<Law>{{law, m.pairs.count, table, h}, wall_loop<Law>(m.vector_path)});
 }
 
 template <class Law> void add_rigid_kernel(Task& task, const Model& m, double h, Law law) {
