@@ -166,7 +166,7 @@ std::vector<GeometrySpec> expanded(const std::vector<GeometryKeys>& geometries) 
 const Section<MotionSpec>& motion_keys() {
   using M = MotionSpec;
   static const Section<M> section{{
-      key("start", Number{"s", any_number}, &M::start, "The piece is active from here ..."),
+      key("start", Number{"s", {.min = -1e9, .max = 1e9}}, &M::start, "The piece is active from here ..."),   // from -1e308 on, it has gone to infinity
       key("end", Number{"s", {.infinite = true}}, &M::end, "... until just before here."),
       key("velocity", Vector{"m/s"}, &M::velocity, "Of the translation."),
       key("angular_velocity", Number{"rad/s"}, &M::angular_velocity, "Of the rotation about the axis through the point."),

@@ -253,6 +253,7 @@ TEST(BadScene, Bodies) {
               HasSubstr("start 2 s must be before end 1 s"));
   EXPECT_THAT(error("geometries: [{plane: {}}], motion: kinematic, pieces: [{axis: [0, 0, 0]}]"), HasSubstr("must not be zero"));
   EXPECT_THAT(error("geometries: [{plane: {}}], motion: kinematic, pieces: [{frequency: -1 Hz}]"), HasSubstr("frequency: -1 Hz is out of range: must be 0 .. 1.0e+06 Hz"));
+  EXPECT_THAT(error("geometries: [{plane: {}}], motion: kinematic, pieces: [{start: -1e308}]"), HasSubstr("start: -1e308 is out of range"));
   EXPECT_THAT(error("geometries: [{plane: {}}], motion: kinematic, pieces: [{phase: 90 deg}]"),
               HasSubstr("key 'phase' applies only where frequency is not 0"));
   EXPECT_THAT(error("geometries: [{sphere: {radius: 1}}], motion: dynamic"),
