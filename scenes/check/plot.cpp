@@ -26,7 +26,7 @@ double tick_of(double span) {
 }
 
 void give_room(Range& r) {
-  if (r.high - r.low <= 1e-12 * std::max(std::abs(r.low), std::abs(r.high))) {
+  if (r.high - r.low <= 1e-7 * std::max(std::abs(r.low), std::abs(r.high))) {   // of less, labels would not tell
     const double half = r.low == 0 ? 1 : 0.1 * std::abs(r.low);
     r.low -= half, r.high += half;
   }
@@ -51,7 +51,9 @@ std::string svg_of(const Plot& plot) {
   Svg svg;
   svg.text(left, 16, 12, "start", ink, shortened(plot.title, 12, width - left), true);
   const double dx = tick_of(x.high - x.low), dy = tick_of(y.high - y.low);
-  const auto label = [](double v, double tick) { return fmt::format("{:.6g}", std::abs(v) < 1e-9 * tick ? 0.0 : v); };
+  const auto label = [](double v, double tick) {         // as many digits as tell one tick from the next
+    return std::abs(v) < 1e-9 * tick ? "0" : fmt::format("{:.{}g}", v, std::max(6, 1 + int(std::ceil(std::log10(std::abs(v) / tick)))));
+  };
   for (double v = std::ceil(x.low / dx) * dx; v <= x.high + 1e-9 * dx; v += dx) {
     const std::string words = label(v, dx);
     svg.line(px(v), top, px(v), height - bottom, grid);
@@ -73,10 +75,12 @@ std::string svg_of(const Plot& plot) {
       svg.body += fmt::format("<path d=\"{}\" stroke=\"{}\" stroke-width=\"1.4\" fill=\"none\"{}/>\n", path, c.colour,
                               c.dashed ? " stroke-dasharray=\"5 3\"" : "");
     }
-    if (c.points)
-      for (std::size_t k = 0; k < c.x.size(); ++k)
-        if (std::isfinite(c.x[k]) && std::isfinite(c.y[k]))
-          svg.body += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3\" fill=\"{}\" fill-opacity=\"0.8\"/>\n", px(c.x[k]), py(c.y[k]), c.colour);
+    for (std::size_t k = 0; k < c.x.size(); ++k) {
+      if (!std::isfinite(c.x[k]) || !std::isfinite(c.y[k])) continue;
+      const std::string at_point = fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\"", px(c.x[k]), py(c.y[k]));
+      if (c.points) svg.body += fmt::format("{} r=\"3\" fill=\"{}\" fill-opacity=\"0.8\"/>\n", at_point, c.colour);
+      if (c.rings) svg.body += fmt::format("{} r=\"5\" stroke=\"{}\" fill=\"none\"/>\n", at_point, c.colour);
+    }
     if (c.name.empty()) continue;
     svg.rect(at, 26, 14, 3, c.colour);
     svg.text(at + 18, 31, 10.5, "start", soft, c.name);

@@ -8,7 +8,7 @@ namespace skred {
 struct Curve {
   std::string name, colour;                          // "#rrggbb"; an empty name stays out of the legend
   std::vector<double> x, y;
-  bool line = true, points = false, dashed = false;
+  bool line = true, points = false, dashed = false, rings = false;   // rings leave room for points within
 };
 
 struct Plot {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <optional>
 #include <fmt/format.h>
@@ -56,6 +57,8 @@ std::vector<Plot> plots_over_runs(const CheckedCase& c) {
       if (!measured.x.empty()) plot.curves.push_back(std::move(measured));
     }
     if (expected.x.size() < 3) continue;
+    const auto goes = [&](auto on) { return std::ranges::adjacent_find(expected.x, std::not_fn(on)) == expected.x.end(); };
+    if (!goes(std::less<>{}) && !goes(std::greater<>{})) expected.line = false, expected.rings = true;   // another parameter varies too
     plot.curves.insert(plot.curves.begin(), std::move(expected));
     plots.push_back(std::move(plot));
   }
