@@ -54,13 +54,14 @@ inline void set_scales(NormalLaw law, double mass_eff, ContactState<double>& c) 
   else if (law == NormalLaw::kuwabara_kono) c.damping_scale = c.contact_radius;
 }
 
-inline double normal_force(NormalLaw law, const ContactState<double>& c, const ChosenCoefficients& k, ContactMemory& memory) {
-  switch (law) {
+inline double normal_force(const ContactModel& laws, const ContactState<double>& c, const ChosenCoefficients& k, ContactMemory& memory) {
+  const auto cut_off = [&](double force) { return laws.pull ? force : std::max(0.0, force); };
+  switch (laws.normal) {
     case NormalLaw::hertz:                                   // (3.1)
     case NormalLaw::kuwabara_kono:                           // F_n = max(0, k_H (g^(3/2) + 3/2 A sqrt(g) dg/dt))   [N]  (2.11) repaired
-      return Hertz<true>{}.force(c, k);
+      return cut_off(Hertz<true>{}.uncut(c, k));
     case NormalLaw::linear:                                  // F_n = max(0, k_n g + c dg/dt), c = 2 zeta sqrt(k_n m_eff)   [N]  (2.9)
-      return std::max(0.0, k.normal_stiffness * c.overlap - k.normal_damping * c.damping_scale * c.normal_velocity);
+      return cut_off(k.normal_stiffness * c.overlap - k.normal_damping * c.damping_scale * c.normal_velocity);
     case NormalLaw::walton_braun: {                          // k_1 g when it is pressed as never before, else k_2 (g - g_0) >= 0   [N]
       double& greatest = memory.greatest_overlap;
       greatest = std::max(greatest, c.overlap);
@@ -143,14 +144,14 @@ ContactForce<double> evaluate(const ChosenLaw<tangential, rolling, remembers, ke
   ContactState<double> c = contact;
   set_scales(law.model.normal, contact.mass_eff, c);
 
-  const double normal = normal_force(law.model.normal, c, k, memory);
+  const double normal = normal_force(law.model, c, k, memory), pressing = std::max(0.0, normal);   // what pulls does not rub
   ContactForce<double> out{normal * c.normal, {}, {}};
   if constexpr (tangential) {
-    const Vec3 f = tangential_force(law.model.tangential, c, k, normal, time_step, memory);
+    const Vec3 f = tangential_force(law.model.tangential, c, k, pressing, time_step, memory);
     out.force += f;
     out.couple = cross(c.normal, f);
   }
-  if constexpr (rolling) out.rolling = rolling_moment(law.model.rolling, contact, c, k, normal, time_step, memory);
+  if constexpr (rolling) out.rolling = rolling_moment(law.model.rolling, contact, c, k, pressing, time_step, memory);
   return out;
 }
 

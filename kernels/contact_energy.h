@@ -38,7 +38,7 @@ inline ElasticNormal stored(NormalLaw law, const ContactState<double>& c, const 
     case NormalLaw::linear: return {0.5 * k.normal_stiffness * c.overlap * c.overlap, k.normal_stiffness * c.overlap};
     case NormalLaw::walton_braun: {
       ContactMemory as_it_is = memory;
-      const double force = normal_force(law, c, k, as_it_is);
+      const double force = normal_force({.normal = law}, c, k, as_it_is);
       const bool as_never_before = c.overlap >= memory.greatest_overlap && c.normal_velocity < 0;
       return {force * force / (2 * k.unloading_stiffness), as_never_before ? force * k.normal_stiffness / k.unloading_stiffness : force};
     }

@@ -59,10 +59,14 @@ template <bool damped> struct Hertz {
   // F_n = max(0, 4/3 E* sqrt(R_eff) g^(3/2) - gamma_n u_n)                  [N]     eq (3.1), Hertz 1882
   // gamma_n = beta sqrt(S_n m_eff),  S_n = dF/dg = 2 E* sqrt(R_eff g)       [kg/s]  eq (3.2)
   template <class R> R force(const ContactState<R>& c, const LawCoefficientsT<R>& k) const {
+    const R f = uncut(c, k);
+    return select(f > R(0), f, R(0));
+  }
+  template <class R> R uncut(const ContactState<R>& c, const LawCoefficientsT<R>& k) const {
     const R stiffness = k.normal_stiffness * c.contact_radius;
     R f = R(2.0 / 3.0) * stiffness * c.overlap;
     if constexpr (damped) f = f - k.normal_damping * c.damping_scale * c.normal_velocity;
-    return select(f > R(0), f, R(0));
+    return f;
   }
 };
 

@@ -14,6 +14,7 @@ struct ContactModel {
   NormalLaw normal = NormalLaw::hertz;
   TangentialLaw tangential = TangentialLaw::spring;
   RollingLaw rolling = RollingLaw::spring;
+  bool pull = false;                     // the normal law's dashpot may pull while a contact opens: its force is not cut off at zero
   friend bool operator==(const ContactModel&, const ContactModel&) = default;
 };
 

@@ -1,5 +1,6 @@
 #include "kernels/restitution.h"
 #include <cmath>
+#include <numbers>
 
 namespace skred {
 
@@ -18,6 +19,11 @@ double damping_ratio_of(double e) {
     (restitution_of(middle) > e ? low : high) = middle;
   }
   return 0.5 * (low + high);
+}
+
+double damping_ratio_if_pulling(double e) {
+  const double logarithm = std::log(e);
+  return -logarithm / std::hypot(std::numbers::pi, logarithm);
 }
 
 }  // namespace skred

@@ -12,6 +12,11 @@ double restitution_of(double damping_ratio);
 // Its inverse. e in [0.01, 1]; e = 0.18 gives 0.7992, where the formula without the cut-off would give 0.4791 and a
 // measured restitution of 0.31.
 double damping_ratio_of(double restitution);
+
+// The same of a contact whose force is not cut off: it ends when the overlap does, zeta = -ln e / sqrt(pi^2 + ln^2 e). Linear: Cundall &
+// Strack 1979; Hertz: Tsuji et al. 1992, Antypov & Elliott 2011.
+double damping_ratio_if_pulling(double restitution);
+
 inline constexpr double least_restitution = 0.01;
 
 }  // namespace skred

@@ -24,6 +24,10 @@ contact.normal
                    Walton & Braun 1986
   none             no contact forces at all
 
+contact.pull: true leaves out max(0, ...) in hertz, linear and kuwabara_kono, and has zeta = -ln e / sqrt(pi^2 + ln^2 e) in the first two: the
+restitution is e again, and the force pulls before the contact opens, as in many programs; friction goes with what presses.
+                   Tsuji et al. 1992; Antypov & Elliott 2011
+
 contact.tangential
   spring           F_t = -k_t x - gamma_t u_t, |F_t| <= mu F_n,  k_t = 8 G* sqrt(R_eff g),  gamma_t = beta sqrt(k_t m_eff)
                    x: displacement of the contact point since first touch, kept in the tangent plane and within mu F_n / k_t

@@ -28,11 +28,11 @@ void check_restitution(const Scene& scene, const Model& model) {
 // Parameters that the scene gives and its laws do not use; laws that its method does not have.
 void note_laws(const Scene& scene, Prepared& p) {
   const ContactModel& c = scene.contact;
-  const std::string laws = fmt::format("normal: {}, tangential: {}, rolling: {}", word_of(c.normal), word_of(c.tangential), word_of(c.rolling));
+  const std::string laws = fmt::format("normal: {}, tangential: {}, rolling: {}", word_of(c.normal), word_of(c.tangential), word_of(c.rolling)) + (c.pull ? ", pull: true" : "");
   const bool nonsmooth = scene.method == Method::ndem;
   const auto other_than = [](auto law, auto one) { return law != one && law != decltype(law)::none; };
   if (nonsmooth && (other_than(c.normal, NormalLaw::hertz) || other_than(c.tangential, TangentialLaw::spring) ||
-                    other_than(c.rolling, RollingLaw::spring)))
+                    other_than(c.rolling, RollingLaw::spring) || c.pull))
     p.warnings.push_back(fmt::format("contact: {{{}}} are laws of smooth DEM; nonsmooth DEM has the compliance of Hertz, Coulomb friction and a "
                                      "constant limit of the rolling moment", laws));
   const bool normal = c.normal != NormalLaw::none, viscous = c.tangential == TangentialLaw::viscous || c.tangential == TangentialLaw::haff_werner;

@@ -197,6 +197,7 @@ const Section<ContactModel>& contact_keys() {
       key("rolling", words_of({RollingLaw::spring, RollingLaw::constant_torque, RollingLaw::viscous, RollingLaw::none}), &C::rolling,
           "Rolling resistance: elastic-plastic spring, with a dashpot if rolling_damping says so; constant torque; viscous. Nonsmooth DEM always "
           "has a constant limit, or none."),
+      key("pull", Flag{}, &C::pull, "Whether the dashpot of hertz, linear or kuwabara_kono may pull while a contact opens. Of the first two the restitution is as asked for either way."),
   }};
   return section;
 }

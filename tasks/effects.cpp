@@ -141,9 +141,9 @@ Effects decide_effects(const World& w, const Model& m) {
   else e.rolling = of_law("rolling resistance", in_rolling, any_pair(&PairCoefficients::rolling_friction, 0),
                      "rolling_friction is above 0 for some pair", "rolling_friction is 0 for every pair");
   const std::string laws = "normal: " + std::string(word_of(m.contact.normal)) + ", tangential: " + word_of(m.contact.tangential) +
-                           ", rolling: " + word_of(m.contact.rolling);
+                           ", rolling: " + word_of(m.contact.rolling) + (m.contact.pull ? ", pulling" : "");
   e.chosen = !nonsmooth && normal &&
-             (m.contact.normal != NormalLaw::hertz || (e.friction && tangential != TangentialLaw::spring) ||
+             (m.contact.normal != NormalLaw::hertz || (m.contact.pull && e.damping) || (e.friction && tangential != TangentialLaw::spring) ||
               (e.rolling && (rolling != RollingLaw::spring || dashpot)));
   decide("laws other than Hertz and springs", e.chosen, laws + (e.rolling && dashpot && rolling == RollingLaw::spring ? " with its dashpot" : ""),
          !nonsmooth ? "none that has an effect: every set of vector instructions computes these"

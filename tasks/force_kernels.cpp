@@ -11,15 +11,17 @@
 namespace skred {
 
 // beta = sqrt(10/3) zeta, so that gamma_n = beta sqrt(S_n m_eff)   eq (3.2) repaired
-LawCoefficients law_coefficients(const PairCoefficients& p) {
-  const double beta = std::sqrt(10.0 / 3.0) * damping_ratio_of(p.restitution);
+LawCoefficients law_coefficients(const PairCoefficients& p) { return law_coefficients(p, damping_ratio_of(p.restitution)); }
+LawCoefficients law_coefficients(const PairCoefficients& p, double damping_ratio) {
+  const double beta = std::sqrt(10.0 / 3.0) * damping_ratio;
   return {2 * p.young_eff, 8 * p.shear_eff, beta * std::sqrt(2 * p.young_eff), beta * std::sqrt(8 * p.shear_eff), p.friction, p.rolling_friction};
 }
 
 // The same for a law with other parts: what multiplies the scales of its springs and dashpots (kernels/chosen_law.h). k_t / k_n is that
 // of Hertz and Mindlin, 8 G* / (2 E*) = 2 (1 - nu) / (2 - nu), whatever the normal law.
 ChosenCoefficients chosen_coefficients(const ContactModel& model, const PairCoefficients& p) {
-  ChosenCoefficients k{law_coefficients(p)};
+  const double zeta = model.pull ? damping_ratio_if_pulling(p.restitution) : damping_ratio_of(p.restitution);
+  ChosenCoefficients k{law_coefficients(p, zeta)};
   if (model.normal == NormalLaw::kuwabara_kono) {
     k.normal_damping = p.damping_time * k.normal_stiffness;
     k.tangential_damping = p.damping_time * k.tangential_stiffness;
@@ -27,8 +29,7 @@ ChosenCoefficients chosen_coefficients(const ContactModel& model, const PairCoef
   if (is_linear(model.normal)) {
     k.normal_stiffness = p.normal_stiffness;
     k.tangential_stiffness = p.normal_stiffness * (8 * p.shear_eff) / (2 * p.young_eff);
-    const double zeta = damping_ratio_of(p.restitution);       // c = 2 zeta sqrt(k m_eff)   eq (2.10) for a force that never pulls
-    k.normal_damping = 2 * zeta * std::sqrt(k.normal_stiffness);
+    k.normal_damping = 2 * zeta * std::sqrt(k.normal_stiffness);                    // c = 2 zeta sqrt(k m_eff)   eq (2.10)
     k.tangential_damping = 2 * zeta * std::sqrt(k.tangential_stiffness);
     k.unloading_stiffness = p.normal_stiffness / (p.restitution * p.restitution);   // e = sqrt(k_1 / k_2), Walton & Braun 1986
   }

@@ -31,7 +31,8 @@ void add_rigid_collision(Task&, const World&, const Effects&, double margin, boo
 void add_force_calculation(Task&, const World&, const Model&, const Effects&, double time_step);
 
 // What the laws of smooth DEM know of a pair of materials.
-LawCoefficients law_coefficients(const PairCoefficients&);
+LawCoefficients law_coefficients(const PairCoefficients&);         // of a force that never pulls
+LawCoefficients law_coefficients(const PairCoefficients&, double damping_ratio);
 ChosenCoefficients chosen_coefficients(const ContactModel&, const PairCoefficients&);
 
 // The energy of the state at the end of a step and what became of it, where the output asks; time_step 0 before the first step.

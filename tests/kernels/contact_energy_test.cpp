@@ -25,7 +25,7 @@ TEST(ContactEnergy, WaltonBraunGivesBackWhatItHolds) {
   double lost = 0, returned = 0;
   for (double overlap = step; overlap <= 1; overlap += step) {
     const ContactState<double> c = at(overlap, -1);
-    const double force = normal_force(NormalLaw::walton_braun, c, k, memory);
+    const double force = normal_force({.normal = NormalLaw::walton_braun}, c, k, memory);
     lost += (force - stored(NormalLaw::walton_braun, c, k, memory).force) * step;
   }
   const double held = stored(NormalLaw::walton_braun, at(1 - step, 0), k, memory).energy;
@@ -33,7 +33,7 @@ TEST(ContactEnergy, WaltonBraunGivesBackWhatItHolds) {
   EXPECT_NEAR(lost, 0.5 * 100 * (1 - 0.25), 1e-3);
   for (double overlap = 1; overlap > 0; overlap -= step) {
     const ContactState<double> c = at(overlap, 1);
-    const double force = normal_force(NormalLaw::walton_braun, c, k, memory);
+    const double force = normal_force({.normal = NormalLaw::walton_braun}, c, k, memory);
     EXPECT_EQ(stored(NormalLaw::walton_braun, c, k, memory).force, force);       // nothing more is lost
     returned += force * step;
   }

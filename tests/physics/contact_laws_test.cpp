@@ -66,6 +66,43 @@ TEST(LinearLaw, RestitutionOfDampingRatios) {
   for (int k = 0; k < 6; ++k) EXPECT_NEAR(restitution_of(ratio[k]), e[k], 1e-6);
 }
 
+// The restitution that is asked for when the force may pull, too; the contact then ends with the overlap, after half a period.
+TEST(PullingLaw, Restitution) {
+  const double omega = std::sqrt(2000 / pellet_mass_eff);
+  for (const NormalLaw law : {NormalLaw::hertz, NormalLaw::linear})
+    for (const double e : {0.18, 0.5, 0.9, 1.0})
+      for (const double speed : {0.01, 1.0}) {
+        Lab l = head_on(law, e);
+        l.model.contact.pull = true;
+        const Impact i = collide(l, speed, 1 / omega / 4000);
+        EXPECT_NEAR(i.restitution, e, 0.003 * e) << word_of(law) << " " << speed;
+      }
+}
+
+// What its dashpot would give with the force cut off: 0.31 for 0.18, as integrated by others.
+TEST(PullingLaw, DashpotsOfBothKinds) {
+  const double e[] = {0.1, 0.18, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9};
+  const double cut_off[] = {0.2527, 0.3106, 0.3249, 0.3971, 0.4720, 0.5503, 0.6323, 0.7182, 0.8081, 0.9020};
+  for (int k = 0; k < 10; ++k) EXPECT_NEAR(restitution_of(damping_ratio_if_pulling(e[k])), cut_off[k], 1e-4);
+  EXPECT_EQ(damping_ratio_if_pulling(1), 0);
+}
+
+TEST(PullingLaw, ForcePullsAndWhatPullsDoesNotRub) {
+  ChosenCoefficients k;
+  k.normal_stiffness = 1000, k.normal_damping = 10, k.tangential_stiffness = 700, k.friction = 0.5;
+  ChosenContact c{};
+  c.overlap = 1e-4, c.normal = {1, 0, 0}, c.normal_velocity = 1, c.tangential_velocity = {0, 0.1, 0}, c.radius_eff = 0.003;
+  c.mass_eff = 0.01;
+  for (const bool pull : {false, true}) {
+    ContactMemory memory;
+    const ChosenLaw<true, false, true> law{{NormalLaw::linear, TangentialLaw::spring, RollingLaw::none, pull}};
+    const ContactForce<double> f = evaluate(law, c, k, 1e-5, memory);
+    EXPECT_NEAR(f.force.x, pull ? 1000 * 1e-4 - 10 * 0.1 : 0, 1e-12);
+    EXPECT_EQ(f.force.y, 0);
+    EXPECT_EQ(memory.tangential, Vec3{});
+  }
+}
+
 // Spheres of 10 mm, 100 MPa, nu 0.3, 2500 kg/m^3, A = 50 us; the integral of the equation, cut off at zero.
 TEST(KuwabaraKono, RestitutionFallsWithSpeed) {
   const Material soft{2500, 1e8, 0.3};
@@ -97,7 +134,7 @@ TEST(WaltonBraunNormal, PathOfTheForce) {
   ContactState<double> c{};
   const auto force = [&](double overlap) {
     c.overlap = overlap;
-    return normal_force(NormalLaw::walton_braun, c, k, memory);
+    return normal_force({.normal = NormalLaw::walton_braun}, c, k, memory);
   };
   EXPECT_NEAR(force(0.5), 50, 1e-10);
   EXPECT_NEAR(force(1.0), 100, 1e-10);

@@ -13,7 +13,7 @@ const double m = sphere_mass(pellet_radius);
 
 PairCoefficients& pair_of(Lab& l) { return l.model.pairs.values[0]; }
 
-std::string name_of(const ContactModel& c) { return std::string(word_of(c.normal)) + " " + word_of(c.tangential) + " " + word_of(c.rolling); }
+std::string name_of(const ContactModel& c) { return std::string(word_of(c.normal)) + " " + word_of(c.tangential) + " " + word_of(c.rolling) + (c.pull ? " pull" : ""); }
 
 Lab with(const ContactModel& laws, double restitution, double friction, double rolling_friction) {
   Lab l(restitution, friction, rolling_friction);
@@ -202,6 +202,8 @@ const ContactModel every_law[] = {
     {NormalLaw::hertz, TangentialLaw::spring, RollingLaw::viscous},
     {NormalLaw::walton_braun, TangentialLaw::walton_braun, RollingLaw::constant_torque},
     {NormalLaw::linear, TangentialLaw::coulomb, RollingLaw::viscous},
+    {NormalLaw::hertz, TangentialLaw::spring, RollingLaw::spring, true},
+    {NormalLaw::linear, TangentialLaw::haff_werner, RollingLaw::viscous, true},
     {NormalLaw::kuwabara_kono, TangentialLaw::none, RollingLaw::viscous},
     {NormalLaw::walton_braun, TangentialLaw::haff_werner, RollingLaw::none},
     {NormalLaw::linear, TangentialLaw::none, RollingLaw::none},
