@@ -10,6 +10,7 @@
 #include "engine/periodic.h"
 #include "kernels/force_calculation_particle_particle.h"
 #include "kernels/laws.h"
+#include "tests/kernels/paths.h"
 
 namespace skred {
 namespace {
@@ -121,26 +122,20 @@ VariousParticles three_materials() {
 }
 
 template <class Law, class Kinds, class Space> void compare(const Kinds& particles, const Space& space) {
-  constexpr std::size_t guard = 20, longest = 41;
-  const Pairs pairs(guard + longest + guard, space, !Kinds::alike, 5);
-  const std::size_t all = pairs.i.size();
+  const Pairs pairs(rows_of_paths, space, !Kinds::alike, 5);
   for (const double h : {time_step, 0.0}) {
+    SCOPED_TRACE(h);
     const PairForces<Law, Kinds, Space> forces{{}, particles, space, h};
-    for (const std::size_t first : {0, 3, 8, 13, 20})
-      for (std::size_t count = 0; count < longest; ++count) {
-        const std::size_t last = first + count;
-        const Results want = pairs.after(forces, VectorPath::scalar, first, last);
-        for (const VectorPath path : vector_paths()) {
-          const Results got = pairs.after(forces, path, first, last);
-          ASSERT_TRUE(same_bits(got, want, first, last)) << name_of(path) << " [" << first << ", " << last << ") h " << h;
-          ASSERT_TRUE(same_bits(got.sums, want.sums, 0, 2 * all)) << name_of(path) << " sums, [" << first << ", " << last << ") h " << h;
-          ASSERT_TRUE(same_bits(got, pairs.start, 0, first)) << name_of(path) << " wrote in front of " << first;
-          ASSERT_TRUE(same_bits(got, pairs.start, last, all)) << name_of(path) << " wrote behind " << last;
-        }
-        for (std::size_t k = 0; k < want.sums.size(); ++k) ASSERT_TRUE(Law::rotates || torque_of(want.sums[k]) == torque_of(pairs.start.sums[k]));
-        ASSERT_TRUE(Law::has_tangential || same_bits(want.spring, pairs.start.spring, 0, all));
-        ASSERT_TRUE(Law::has_rolling || same_bits(want.rolling, pairs.start.rolling, 0, all));
-      }
+    compare_paths(
+        pairs.start, [&](VectorPath path, std::size_t first, std::size_t last) { return pairs.after(forces, path, first, last); },
+        [&](const Results& got, const Results& want, VectorPath path) {
+          ASSERT_TRUE(same_bits(got.sums, want.sums, 0, 2 * rows_of_paths)) << name_of(path) << " sums";
+        },
+        [&](const Results& want, std::size_t, std::size_t) {
+          for (std::size_t k = 0; k < want.sums.size(); ++k) ASSERT_TRUE(Law::rotates || torque_of(want.sums[k]) == torque_of(pairs.start.sums[k]));
+          ASSERT_TRUE(Law::has_tangential || same_bits(want.spring, pairs.start.spring, 0, rows_of_paths));
+          ASSERT_TRUE(Law::has_rolling || same_bits(want.rolling, pairs.start.rolling, 0, rows_of_paths));
+        });
   }
 }
 

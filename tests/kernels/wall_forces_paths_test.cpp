@@ -6,12 +6,13 @@
 #include "engine/buffer.h"
 #include "kernels/force_calculation_particle_body.h"
 #include "kernels/laws.h"
+#include "tests/kernels/paths.h"
 
 namespace skred {
 namespace {
 
 constexpr double time_step = 5e-5;                                   // [s]
-constexpr std::size_t particles = 200, guard = 20, longest = 41, contacts = guard + longest + guard;
+constexpr std::size_t particles = 200, contacts = rows_of_paths;
 
 struct Results { Buffer<Vec3> force, torque, rolling_torque, spring, rolling; };
 
@@ -86,23 +87,18 @@ template <class Law> void compare() {
   const Walls walls(3);
   EXPECT_TRUE(walls.touching > contacts / 4 && walls.touching < contacts) << walls.touching;
   for (const double h : {time_step, 0.0}) {
+    SCOPED_TRACE(h);
     const WallForces<Law> forces{{}, 3, three_materials(), h};
-    for (const std::size_t first : {0, 3, 8, 13, 20})
-      for (std::size_t count = 0; count < longest; ++count) {
-        const std::size_t last = first + count;
-        const Results want = walls.after(forces, VectorPath::scalar, first, last);
-        for (const VectorPath path : vector_paths()) {
-          const Results got = walls.after(forces, path, first, last);
-          ASSERT_TRUE(same_bits(got, want, first, last)) << name_of(path) << " [" << first << ", " << last << ") h " << h;
-          ASSERT_TRUE(same_bits(got, walls.start, 0, first)) << name_of(path) << " wrote in front of " << first;
-          ASSERT_TRUE(same_bits(got, walls.start, last, contacts)) << name_of(path) << " wrote behind " << last;
-        }
-        for (std::size_t c = first; c < last; ++c) {
-          ASSERT_TRUE(is_finite(want.force[c])) << c;
-          ASSERT_TRUE(walls.overlap[c] > 0 || want.force[c] == Vec3{}) << c;
-          ASSERT_TRUE(walls.overlap[c] > 0 || !Law::has_tangential || want.spring[c] == Vec3{}) << c;
-        }
-      }
+    compare_paths(
+        walls.start, [&](VectorPath path, std::size_t first, std::size_t last) { return walls.after(forces, path, first, last); },
+        [](const Results&, const Results&, VectorPath) {},
+        [&](const Results& want, std::size_t first, std::size_t last) {
+          for (std::size_t c = first; c < last; ++c) {
+            ASSERT_TRUE(is_finite(want.force[c])) << c;
+            ASSERT_TRUE(walls.overlap[c] > 0 || want.force[c] == Vec3{}) << c;
+            ASSERT_TRUE(walls.overlap[c] > 0 || !Law::has_tangential || want.spring[c] == Vec3{}) << c;
+          }
+        });
   }
 }
 
