@@ -21,9 +21,6 @@ template <VectorPath path> using NumberOf = std::conditional_t<path == VectorPat
 
 template <class R> inline constexpr int lanes = stdx::is_simd_v<R> ? int(sizeof(R) / sizeof(double)) : 1;
 
-inline bool is_set(bool mask, int) { return mask; }
-template <class Abi> bool is_set(const stdx::simd_mask<double, Abi>& mask, int lane) { return mask[lane]; }
-
 // One bit a lane, the first the lowest.
 inline unsigned bits(bool mask) { return mask; }
 template <class Abi> unsigned bits(const stdx::simd_mask<double, Abi>& mask) {
@@ -70,10 +67,13 @@ template <class R, class Rows> AnyRows<R> rows_named(const auto* column, const R
   return out;
 }
 
-// Numbers of these rows, by `value(row)`.
+// Numbers by `value(lane)`; of these rows, by `value(row)`.
+template <class R, class Value> R by_lane(const Value& value) {
+  if constexpr (lanes<R> == 1) return value(0);
+  else return R([&](auto k) { return value(int(k)); });
+}
 template <class R, class Rows, class Value> R gather(const Rows& at, const Value& value) {
-  if constexpr (lanes<R> == 1) return value(at[0]);
-  else return R([&](auto k) { return value(at[k]); });
+  return by_lane<R>([&](int k) { return value(at[k]); });
 }
 template <class R, class Rows> R load(const double* column, const Rows& at) {
   if constexpr (lanes<R> > 1 && std::is_same_v<Rows, FullRange<R>>) return R(column + at[0], stdx::element_aligned);

@@ -4,6 +4,7 @@
 // do not touch compute numbers without meaning, which the last lines replace by zeros.
 #pragma once
 #include "engine/pack_quads.h"
+#include "kernels/coefficients_of_lanes.h"
 #include "kernels/force_calculation_particle_particle.h"
 
 namespace skred {
@@ -28,11 +29,7 @@ template <class R, class Lanes> LawCoefficientsT<R> coefficients(const AlikePart
   return {k.normal_stiffness, k.tangential_stiffness, k.normal_damping, k.tangential_damping, k.friction, k.rolling_friction};
 }
 template <class R, class Lanes> LawCoefficientsT<R> coefficients(const VariousParticles& p, const PairColumns& c, const Lanes& row) {
-  const auto of_pair = [&](double LawCoefficients::* what) {
-    return gather<R>(row, [&](std::size_t r) { return p.coefficients[c.material[c.i[r]] * p.materials + c.material[c.j[r]]].*what; });
-  };
-  return {of_pair(&LawCoefficients::normal_stiffness), of_pair(&LawCoefficients::tangential_stiffness), of_pair(&LawCoefficients::normal_damping),
-          of_pair(&LawCoefficients::tangential_damping), of_pair(&LawCoefficients::friction), of_pair(&LawCoefficients::rolling_friction)};
+  return coefficients_of<R>([&](int k) -> const auto& { return p.coefficients[c.material[c.i[row[k]]] * p.materials + c.material[c.j[row[k]]]]; });
 }
 
 // Of the particles i, and of the particles j, of these contacts.

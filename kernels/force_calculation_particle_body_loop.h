@@ -2,15 +2,10 @@
 // as in force_calculation_loop.h.
 #pragma once
 #include <algorithm>
-#include "engine/pack.h"
+#include "kernels/coefficients_of_lanes.h"
 #include "kernels/force_calculation_particle_body.h"
 
 namespace skred {
-
-template <class R, class Value> R by_lane(const Value& value) {
-  if constexpr (lanes<R> == 1) return value(0);
-  else return R([&](auto k) { return value(int(k)); });
-}
 
 template <class R, class Law, class Lanes> void press_on_wall(const WallForces<Law>& walls, const WallColumns& w, const Lanes& row) {
   using std::sqrt;
@@ -52,13 +47,9 @@ template <class R, class Law, class Lanes> void press_on_wall(const WallForces<L
       if constexpr (Law::remembers) memory = w.memory[row[0]];
       f = evaluate(walls.law, contact, of_pair(0), walls.time_step, memory);
     } else {
-      const auto k = [&](double LawCoefficients::* what) { return by_lane<R>([&](int lane) { return of_pair(lane).*what; }); };
-      const LawCoefficientsT<R> coefficients{k(&LawCoefficients::normal_stiffness),   k(&LawCoefficients::tangential_stiffness),
-                                             k(&LawCoefficients::normal_damping),     k(&LawCoefficients::tangential_damping),
-                                             k(&LawCoefficients::friction),           k(&LawCoefficients::rolling_friction)};
       if constexpr (Law::keeps_spring) spring = load<R>(w.spring, row);
       if constexpr (Law::keeps_rolling) rolling = load<R>(w.rolling, row);
-      f = evaluate(walls.law, s, coefficients, R(walls.time_step), spring, rolling);
+      f = evaluate(walls.law, s, coefficients_of<R>(of_pair), R(walls.time_step), spring, rolling);
     }
   }
   const auto put = [&](const Vec3T<R>& v, Vec3* column) { store(select(touching, v, Vec3T<R>{R(0), R(0), R(0)}), column, row); };
