@@ -6,10 +6,12 @@
 //   Read<&T::column>   any row, unchanged
 //   Write<&T::column>  own rows, all overwritten (a debug build fills them with NaN first)
 //   Update<&T::column> own rows, read and changed
+//   Raise<&T::column>  a flag that any call may raise, of a table of one row: which comes first makes no difference
 //   Resize<T>          may add, drop or reorder rows of T
 //   If<condition, W>   the word W where an effect is in, nothing where it is out
 //   Parallel           a parallel loop, for kernels without Rows
 #pragma once
+#include <atomic>
 #include <cstddef>
 #include <span>
 #include <type_traits>
@@ -26,6 +28,9 @@ template <auto F> using value_t = typename column_of<decltype(F)>::value;
 template <auto F> struct Read   : std::span<const value_t<F>> {};
 template <auto F> struct Write  : std::span<value_t<F>> {};
 template <auto F> struct Update : std::span<value_t<F>> {};
+template <auto F> struct Raise  : std::span<value_t<F>> {
+  void operator()(bool raised) const { if (raised) std::atomic_ref((*this)[0]).store(1, std::memory_order_relaxed); }
+};
 template <class T> struct Resize { T* table; T* operator->() const { return table; } };
 template <class T> struct Rows { std::size_t first = 0, last = 0; };
 struct Nothing {};

@@ -22,15 +22,16 @@ struct PeriodicSpace {
     return {wrap(x.x, R(min.x), R(length.x)), wrap(x.y, R(min.y), R(length.y)), wrap(x.z, R(min.z), R(length.z))};
   }
 
- private:
-  template <class R> static R shortest(R d, R box) {       // |d| < box, so one shift is enough
-    const R half = 0.5 * box;
-    return select(d > half, d - box, select(d < -half, d + box, d));
-  }
   template <class R> static R wrap(R x, R lo, R box) {
     x = select(x < lo, x + box, x);
     x = select(x >= lo + box, x - box, x);
     return select(x < lo, lo, x);                          // rounding may leave x a hair below
+  }
+
+ private:
+  template <class R> static R shortest(R d, R box) {       // |d| < box, so one shift is enough
+    const R half = 0.5 * box;
+    return select(d > half, d - box, select(d < -half, d + box, d));
   }
 };
 

@@ -367,6 +367,8 @@ enum class Trouble : std::uint32_t { none = 0, not_finite, too_fast, out_of_boun
 struct Search {
   Column<char>         due{"search_due", "1", {1}};                // neighbours must be searched for in this step
   Column<char>         list_due{"listing_due", "1", {1}};          // contacts must be listed anew in this step
+  Column<char>         left_margin{"left_margin", "1", {0}};       // seen by `integrate`: some particle left its margin ...
+  Column<char>         unwell{"unwell", "1", {0}};                 // ... is out of bounds, too fast or no number
   Column<char>         rows_changed{"rows_changed", "1", {0}};     // particles came or went since the rows were last looked at
   Column<char>         reordered{"reordered", "1", {0}};           // in this step particles came or went, or their rows were sorted
   Column<std::int64_t> count{"searches", "1", {0}};                // searches so far, this one included
@@ -377,7 +379,7 @@ struct Search {
   Column<std::int64_t> outside{"outside", "1", {0}};               // particles outside the bounds
   std::size_t rows() const { return 1; }
   static constexpr auto columns() {
-    return std::tuple{&Search::due, &Search::list_due, &Search::rows_changed, &Search::reordered, &Search::count, &Search::listings,
+    return std::tuple{&Search::due, &Search::list_due, &Search::left_margin, &Search::unwell, &Search::rows_changed, &Search::reordered, &Search::count, &Search::listings,
                       &Search::reach, &Search::trouble, &Search::culprit, &Search::outside};
   }
 };

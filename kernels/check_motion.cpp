@@ -38,7 +38,8 @@ void CheckMotion<Space>::operator()(Parallel parallel, Read<&Clock::step> step, 
     Update<&Particles::search_margin> search_margin, Update<&Particles::listed> listed, Update<&Particles::list_margin> list_margin,
     Read<&Bodies::motion> motion, Read<&Bodies::pose> pose, Read<&Bodies::velocity> wall_velocity,
     Read<&Bodies::angular_velocity> wall_spin, Read<&Bodies::searched> pose_searched, Read<&Geometries::body> body,
-    Read<&Geometries::shape> shape, Read<&Geometries::local> local, Update<&Search::due> due, Read<&Search::rows_changed> rows_changed, Write<&Search::list_due> list_due,
+    Read<&Geometries::shape> shape, Read<&Geometries::local> local, Update<&Search::due> due, Read<&Search::rows_changed> rows_changed, Update<&Search::left_margin> left_margin, Update<&Search::unwell> unwell,
+    Write<&Search::list_due> list_due,
     Update<&Search::count> count, Update<&Search::listings> listings, Update<&Search::reach> reach, Write<&Search::trouble> trouble,
     Write<&Search::culprit> culprit, Write<&Search::outside> outside) const {
   constexpr std::size_t chunk = 1024;
@@ -52,20 +53,18 @@ void CheckMotion<Space>::operator()(Parallel parallel, Read<&Clock::step> step, 
   // Nonsmooth DEM finds what a step will touch before it is made: its particles may go as far as they like, if the lists know.
   const auto goes_on_well = [&](std::size_t p) { return std::sqrt(moved2(p, listed)) + time_step * norm(velocity[p]) + ahead.fall <= list_margin[p]; };
 
-  constexpr double infinite = std::numeric_limits<double>::infinity();
-  const MotionWatch<Space> watch{space, time_step, bounded ? bounds : Bounds{{-infinite, -infinite, -infinite}, {infinite, infinite, infinite}},
-                                 position.data(), velocity.data(), listed.data(), radius.data(), list_margin.data()};
+  // Where particles came or went since, or a flag was raised, everyone is looked at.
+  const bool look = !watched_by_integrate || rows_changed[0] || unwell[0];
   std::vector<Seen> seen(chunks);
-  parallel.chunks(n, chunk, [&](std::size_t k, std::size_t begin, std::size_t end) {
+  if (look) parallel.chunks(n, chunk, [&](std::size_t k, std::size_t begin, std::size_t end) {
     Seen s;
-    auto [all_in_margin, all_well] = ahead.watched ? AllOf{true, true} : loop(watch, begin, end);
-    for (std::size_t p = begin; p < end && ahead.watched; ++p) {
-      all_in_margin &= goes_on_well(p);
-      all_well &= !bounded || is_inside(bounds, position[p]);
-      s.speed2 = std::max(s.speed2, dot(velocity[p], velocity[p]));
-    }
-    s.left_margin = !all_in_margin;
-    for (std::size_t p = begin; p < end && !(all_well && all_in_margin); ++p) {
+    for (std::size_t p = begin; p < end; ++p) {
+      if (ahead.watched) {
+        s.left_margin |= !goes_on_well(p);
+        s.speed2 = std::max(s.speed2, dot(velocity[p], velocity[p]));
+      } else {
+        s.left_margin |= !is_in_margin(space, position[p], listed[p], list_margin[p]);
+      }
       if (!is_finite(position[p]) || !is_finite(velocity[p])) {
         s.blame(Trouble::not_finite, id[p]);
         continue;
@@ -80,6 +79,8 @@ void CheckMotion<Space>::operator()(Parallel parallel, Read<&Clock::step> step, 
   });
 
   Seen all;
+  all.left_margin = left_margin[0];
+  left_margin[0] = unwell[0] = 0;
   for (const Seen& s : seen) {
     all.left_margin |= s.left_margin;
     all.outside += s.outside;

@@ -8,7 +8,7 @@
 #include <limits>
 #include "engine/access.h"
 #include "engine/periodic.h"
-#include "engine/vector_path.h"
+#include "kernels/motion_watch.h"
 
 namespace skred {
 
@@ -27,33 +27,6 @@ struct StepAhead {
   double widest = std::numeric_limits<double>::infinity();   // [m] widest margin that the space allows
 };
 
-// Of one particle, or of as many as the number type R is wide. NaN fails every comparison.
-template <class R> auto is_inside(const Bounds& b, const Vec3T<R>& x) {
-  return (x.x >= R(b.min.x)) & (x.x <= R(b.max.x)) & (x.y >= R(b.min.y)) & (x.y <= R(b.max.y)) & (x.z >= R(b.min.z)) & (x.z <= R(b.max.z));
-}
-// A contact lasts tens of steps: half a radius in one step is far beyond any sound motion.
-template <class R> auto is_sound_speed(const Vec3T<R>& velocity, const R& radius, double time_step) {
-  const R reach_of_step = R(0.5) * radius;
-  return dot(velocity, velocity) * R(time_step) * R(time_step) <= reach_of_step * reach_of_step;
-}
-
-// The part of the check that every step makes of every particle: one loop, compiled once per set of vector instructions.
-struct AllOf { bool in_margin, well; };
-template <class Space> struct MotionWatch {
-  Space space;
-  double time_step;              // h [s]
-  Bounds bounds;                 // [m] infinite where there are none
-  const Vec3 *position, *velocity, *listed;
-  const double *radius, *list_margin;
-
-  // Whether of particles [first, last) all are within their margins, and all within bounds and of a sound speed.
-  template <VectorPath path> static AllOf run(const MotionWatch&, std::size_t first, std::size_t last);
-};
-template <class Space> using MotionLoop = AllOf (*)(const MotionWatch<Space>&, std::size_t first, std::size_t last);
-template <class Space> MotionLoop<Space> motion_loop(VectorPath path) {
-  return for_path(path, []<VectorPath p>() -> MotionLoop<Space> { return &MotionWatch<Space>::template run<p>; });
-}
-
 template <class Space> struct CheckMotion {
   static constexpr const char* name = "check_motion";
 
@@ -65,7 +38,7 @@ template <class Space> struct CheckMotion {
   bool stop_outside;             // a particle outside is trouble
   StepAhead ahead;
   int reorder_every;             // steps: then a search is due too (kernels/reorder.h)
-  MotionLoop<Space> loop = motion_loop<Space>(VectorPath::scalar);
+  bool watched_by_integrate = false;   // it has raised the flags left_margin and unwell: particles are looked at only if it did
 
   void operator()(Parallel parallel, Read<&Clock::step> step, Read<&Particles::id> id, Read<&Particles::position> position, Read<&Particles::velocity> velocity,
                   Read<&Particles::radius> radius, Update<&Particles::searched> searched, Update<&Particles::search_margin> search_margin,
@@ -73,7 +46,7 @@ template <class Space> struct CheckMotion {
                   Read<&Bodies::pose> pose, Read<&Bodies::velocity> wall_velocity, Read<&Bodies::angular_velocity> wall_spin,
                   Read<&Bodies::searched> pose_searched, Read<&Geometries::body> body, Read<&Geometries::shape> shape,
                   Read<&Geometries::local> local, Update<&Search::due> due, Read<&Search::rows_changed> rows_changed,
-                  Write<&Search::list_due> list_due,
+                  Update<&Search::left_margin> left_margin, Update<&Search::unwell> unwell, Write<&Search::list_due> list_due,
                   Update<&Search::count> count, Update<&Search::listings> listings, Update<&Search::reach> reach,
                   Write<&Search::trouble> trouble, Write<&Search::culprit> culprit, Write<&Search::outside> outside) const;
 };

@@ -2,7 +2,7 @@
 //
 // The force calculation has added up the contacts with particles block by block; to these come the halo's sums, what other blocks'
 // contacts do, by ascending block, then the bodies by geometry, then gravity: a fixed order, so the sums have the same bits for any number of
-// threads. Contacts that do not touch add zeros.
+// threads. Contacts that do not touch add zeros. Chunks of rows are whole blocks.
 // The last line of the integration (kernels/integrate.h) is here because both forces are at hand.
 #pragma once
 #include <algorithm>
@@ -14,7 +14,8 @@ namespace skred {
 
 // What turns the sums of a block into velocities: one loop, compiled once per set of vector instructions
 // (kernels/force_application_loop.h).
-template <bool rotates, class Inertia> struct VelocityUpdate {
+template <bool rotates_, class Inertia> struct VelocityUpdate {
+  static constexpr bool rotates = rotates_, alike = Inertia::alike;
   Vec3 gravity;       // [m/s^2]
   double time_step;   // h [s]; 0: forces only
   Inertia inertia;
@@ -32,11 +33,12 @@ template <class V> VelocityLoop<V> velocity_loop(VectorPath path) {
 
 template <bool contacts, bool body_contacts, bool rotates, class Inertia> struct ForceApplicationParticle {
   static constexpr const char* name = "force_application_particle";
+  static constexpr std::size_t grain = contact_block;
 
   VelocityUpdate<rotates, Inertia> update;
   VelocityLoop<VelocityUpdate<rotates, Inertia>> loop;
 
-  void operator()(Parallel parallel, If<contacts, Read<&HaloIncidence::halo>> first_halo, If<contacts, Read<&Halo::particle>> halo_particle,
+  void operator()(Rows<Particles> rows, If<contacts, Read<&HaloIncidence::halo>> first_halo, If<contacts, Read<&Halo::particle>> halo_particle,
                   If<contacts, Read<&Halo::sum>> halo_sum, If<contacts, Read<&ContactSums::force>> force_sum,
                   If<contacts && rotates, Read<&ContactSums::torque>> torque_sum, If<body_contacts, Read<&BodyIncidence::first>> first_body,
                   If<body_contacts, Read<&BodyContacts::particle>> body_contact_of, If<body_contacts, Read<&BodyContacts::force>> body_force,
@@ -49,8 +51,9 @@ template <bool contacts, bool body_contacts, bool rotates, class Inertia> struct
     of_all.mass = pointer(mass), of_all.radius = pointer(radius);
     of_all.velocity = velocity.data(), of_all.force = force.data(), of_all.previous_force = previous_force.data();
     of_all.spin = pointer(spin), of_all.torque = pointer(torque), of_all.previous_torque = pointer(previous_torque);
-    parallel.chunks(force.size(), contact_block, [&](std::size_t block, std::size_t begin, std::size_t end) {
-      thread_local Buffer<Vec3> f, t;                        // of the block's particles, beside the core
+    thread_local Buffer<Vec3> f, t;                          // of a block's particles, beside the core
+    for (std::size_t begin = rows.first; begin < rows.last; begin += contact_block) {
+      const std::size_t block = begin / contact_block, end = std::min(rows.last, begin + contact_block);
       if constexpr (contacts) {
         f.assign(force_sum.begin() + begin, force_sum.begin() + end);
         if constexpr (rotates) t.assign(torque_sum.begin() + begin, torque_sum.begin() + end);
@@ -68,7 +71,7 @@ template <bool contacts, bool body_contacts, bool rotates, class Inertia> struct
           if constexpr (rotates) t[body_contact_of[c] - begin] += body_torque[c];
         }
       loop(of_all, begin, end, f.data(), t.data());
-    });
+    }
   }
 };
 

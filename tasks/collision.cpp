@@ -15,7 +15,8 @@ namespace {
 
 template <class Space>
 void add_search(Task& task, const World& w, const Model& m, const Effects& e, const ContactColumns& columns, double time_step, const Space& space) {
-  task.add(CheckMotion<Space>{space, margins_of(w, m), time_step, m.bounds.has_value(), m.bounds.value_or(Bounds{}), m.stop_outside, step_ahead(w, m), m.reorder_every, motion_loop<Space>(m.vector_path)});
+  task.add(CheckMotion<Space>{space, margins_of(w, m), time_step, m.bounds.has_value(), m.bounds.value_or(Bounds{}), m.stop_outside, step_ahead(w, m), m.reorder_every,
+                              m.method == Method::sdem});
   task.add(Reorder{2 * largest_radius(w, m), m.reorder_every});
   if (!e.contacts) return;
   task.add(Broadphase<Space>{space, cell_of(w, m), near_loop<Space>(m.vector_path)});
@@ -57,16 +58,19 @@ void add_rigid_collision(Task& task, const World& w, const Effects& e, double ma
 
 namespace {
 
-template <Scheme scheme, class Space, class Inertia>
-void add_integrate_in(Task& task, const Effects& e, const Space& space, double h, const Inertia& inertia) {
-  if (e.orientation) task.add(Integrate<scheme, true, true, Space, Inertia>{space, h, inertia});
-  else if (e.rotation) task.add(Integrate<scheme, true, false, Space, Inertia>{space, h, inertia});
-  else task.add(Integrate<scheme, false, false, Space, Inertia>{space, h, inertia});
+template <class Space, class Inertia> void add_verlet(Task& task, const Model& m, const Effects& e, const Space& space, double h, const Inertia& inertia) {
+  const auto add = [&]<bool rotates, bool oriented> {
+    using Kernel = Integrate<rotates, oriented, Space, Inertia>;
+    task.add(Kernel{{space, h, inertia, m.bounds.value_or(no_bounds)}, verlet_loop<typename Kernel::Step>(m.vector_path)});
+  };
+  if (e.orientation) add.template operator()<true, true>();
+  else if (e.rotation) add.template operator()<true, false>();
+  else add.template operator()<false, false>();
 }
 
-template <Scheme scheme, class Inertia> void add_integrate_by(Task& task, const Model& m, const Effects& e, double h, const Inertia& inertia) {
-  if (m.periodic) add_integrate_in<scheme>(task, e, *m.periodic, h, inertia);
-  else add_integrate_in<scheme>(task, e, OpenSpace{}, h, inertia);
+template <class Space> void add_symplectic(Task& task, const Effects& e, const Space& space, double h) {
+  if (e.orientation) task.add(IntegrateSymplectic<true, Space>{space, h});
+  else task.add(IntegrateSymplectic<false, Space>{space, h});
 }
 
 }  // namespace
@@ -77,9 +81,13 @@ Inertia<true> inertia_of_all(const World& w) {
 }
 
 void add_integrate(Task& task, const World& w, const Model& m, const Effects& e, double h) {
-  if (m.method == Method::ndem) add_integrate_by<Scheme::symplectic_euler>(task, m, e, h, Inertia<false>{});
-  else if (e.alike) add_integrate_by<Scheme::velocity_verlet>(task, m, e, h, inertia_of_all(w));
-  else add_integrate_by<Scheme::velocity_verlet>(task, m, e, h, Inertia<false>{});
+  const auto in = [&](const auto& space) {
+    if (m.method == Method::ndem) add_symplectic(task, e, space, h);
+    else if (e.alike) add_verlet(task, m, e, space, h, inertia_of_all(w));
+    else add_verlet(task, m, e, space, h, Inertia<false>{});
+  };
+  if (m.periodic) in(*m.periodic);
+  else in(OpenSpace{});
 }
 
 }  // namespace skred

@@ -253,37 +253,23 @@ template <class Space> void fly(const Space& space) {
   EXPECT_LT(s.listings.data[0], steps);
 }
 
-// One particle of many is not where it should be, whichever it is: every set of vector instructions sees it, and sees nothing else.
-TEST(CheckMotion, EveryPathSeesTheOneThatStrays) {
-  constexpr double infinite = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
-  constexpr std::size_t n = 21;
-  const PeriodicSpace space{{0, 0, 0}, {30, infinite, infinite}};
-  struct Stray { Vec3 position, velocity; bool in_margin, well; };
-  const Stray strays[]{{{0, 0.5, 0}, {}, true, true},      // as far as it may
-                       {{0, 0.51, 0}, {}, false, true},
-                       {{30, 0, 0}, {}, true, false},      // its image is where it was listed, but it is out of bounds
-                       {{0, 0, -1.5}, {}, false, false},
-                       {{}, {0, 0, 50}, true, true},       // half a radius in a step
-                       {{}, {0, 0, 50.1}, true, false},
-                       {{nan, 0, 0}, {}, false, false},
-                       {{}, {0, nan, 0}, true, false}};
-  for (const VectorPath path : vector_paths())
-    for (const Stray& stray : strays)
-      for (std::size_t which = 0; which < n; ++which) {
-        Buffer<Vec3> listed(n), velocity(n);
-        for (std::size_t p = 0; p < n; ++p) listed[p] = {1.0 + double(p), 2, 0};
-        Buffer<Vec3> position = listed;
-        const Buffer<double> radius(n, 1.0), margin(n, 0.5);
-        position[which] = listed[which] + stray.position, velocity[which] = stray.velocity;
-        const MotionWatch<PeriodicSpace> watch{space, step, {{0, 0, -1}, {n + 1.0, 3, 1}}, position.data(), velocity.data(), listed.data(),
-                                               radius.data(), margin.data()};
-        const MotionLoop<PeriodicSpace> loop = motion_loop<PeriodicSpace>(path);
-        const AllOf with = loop(watch, 0, n);
-        EXPECT_EQ(with.in_margin, stray.in_margin) << name_of(path) << " " << &stray - strays << " " << which;
-        EXPECT_EQ(with.well, stray.well) << name_of(path) << " " << &stray - strays << " " << which;
-        const AllOf before = loop(watch, 0, which), behind = loop(watch, which + 1, n);
-        EXPECT_TRUE(before.in_margin && before.well && behind.in_margin && behind.well) << name_of(path) << " " << which;
-      }
+// In smooth DEM the integration watches: a step in which it raised no flag looks at no particle.
+TEST(CheckMotion, BelievesTheFlagsOfTheIntegration) {
+  Watched w(9000);
+  w.kernel.watched_by_integrate = true;
+  w.p.position.data[8000].y = 0.0101;
+  w.p.velocity.data[7777] = {0, 0, -30};
+  EXPECT_FALSE(w.list_due());
+  EXPECT_EQ(w.trouble(), Trouble::none);
+  w.s.left_margin.data[0] = 1;
+  EXPECT_TRUE(w.list_due());
+  EXPECT_FALSE(w.list_due()) << "a flag counts once";
+  w.s.unwell.data[0] = 1;
+  EXPECT_EQ(w.trouble(), Trouble::too_fast);
+  EXPECT_EQ(w.s.culprit.data[0], w.p.id.data[7777]);
+  EXPECT_EQ(w.trouble(), Trouble::none) << "a flag counts once";
+  w.s.rows_changed.data[0] = 1;                              // nobody has watched those that came
+  EXPECT_EQ(w.trouble(), Trouble::too_fast);
 }
 
 TEST(CheckMotion, NoPairTouchesUnlisted) { fly(OpenSpace{}); }

@@ -13,7 +13,7 @@ template <class Kernel, class T, class... W>
 void call(const Kernel& kernel, World& w, const Rows<T>& rows, void (Kernel::*)(W...) const) {
   kernel(make(w, rows, Parallel{}, Word<W>{})...);
 }
-template <class Kernel> void call(const Kernel& kernel, World& w) { call(kernel, w, Rows<Particles>{}, &Kernel::operator()); }
+template <class Kernel> void call(const Kernel& kernel, World& w) { call(kernel, w, Rows<Particles>{0, std::get<Particles>(w).rows()}, &Kernel::operator()); }
 
 // In a cube, with radii of 0.3 .. 0.7 m and margins of up to 0.1 m. Rows are not ids.
 inline World random_spheres(int n, double edge, unsigned seed) {

@@ -9,7 +9,7 @@ import sys
 
 PACKS = {"avx2": "simd_abi::_VecBuiltin<32>", "avx512": "simd_abi::_VecBltnBtmsk<64>"}   # of std::experimental::simd
 NUMBER = {"avx2": 2, "avx512": 3}                                                       # VectorPath in engine/vector_path.h
-LOOPS = {"PairForces": "run", "WallForces": "run", "ContactSweep": "run", "Surroundings": "near", "MotionWatch": "run", "VelocityUpdate": "run"}
+LOOPS = {"PairForces": "run", "WallForces": "run", "ContactSweep": "run", "Surroundings": "near", "VerletStep": "run", "VelocityUpdate": "run"}
 NOT_CODE = {"DW.ref.__gxx_personality_v0"}                                              # a pointer
 
 
