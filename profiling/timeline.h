@@ -60,6 +60,8 @@ class Timeline {
   // A whole call of a kernel, from its start to the end of its last chunk, waiting included. Its work is recorded as chunks, at
   // least one. A kernel is not called while it runs.
   void call(int lane, KernelId k, Ticks begin, Ticks end, std::size_t rows);
+  // Of two kernels that took turns in one loop. Each has its part of the time [0, 1]; the trace shows one call, of the first.
+  void chained_calls(int lane, KernelId first, KernelId then, Ticks begin, Ticks end, std::size_t rows, double part_of_first);
   // A value at the present step for the trace's counter tracks ("contacts", "kinetic energy [J]").
   void counter(const std::string& name, double value);
   bool tracing() const { return tracing_.load(std::memory_order_relaxed); }
@@ -127,6 +129,7 @@ class Timeline {
   static Ticks elapsed(Ticks begin, Ticks end) { return end > begin ? end - begin : 0; }
   static double measure_span_cost();
   void record(int lane, const Event& e);
+  void count_call(KernelId k, Ticks duration, std::size_t rows);
   void keep(Lane& lane, const Event& e);
   void keep_writers(const Event& e);
   void make_room();
@@ -195,21 +198,30 @@ inline void Timeline::chunk(int lane, KernelId k, Ticks begin, Ticks end, std::s
   record(lane, {begin, end, static_cast<std::uint32_t>(rows), k, false, step_.load(std::memory_order_relaxed), label});
 }
 
+inline void Timeline::count_call(KernelId k, Ticks duration, std::size_t rows) {
+  Calls& c = *calls_[k];
+  c.count.fetch_add(1, std::memory_order_relaxed);
+  c.total.fetch_add(duration, std::memory_order_relaxed);
+  c.rows.fetch_add(rows, std::memory_order_relaxed);
+  c.durations.count[Histogram::bin(duration)].fetch_add(1, std::memory_order_relaxed);
+  for (Ticks most = c.max.load(std::memory_order_relaxed); duration > most;)
+    if (c.max.compare_exchange_weak(most, duration, std::memory_order_relaxed)) break;
+}
+
 inline void Timeline::call(int lane, KernelId k, Ticks begin, Ticks end, std::size_t rows) {
-  assert(k < names_.size());
+  chained_calls(lane, k, k, begin, end, rows, 1);
+}
+
+inline void Timeline::chained_calls(int lane, KernelId first, KernelId then, Ticks begin, Ticks end, std::size_t rows, double part_of_first) {
+  assert(first < names_.size() && then < names_.size());
   if (lane < 0 || lane > threads_) {
     astray_.fetch_add(1, std::memory_order_relaxed);
     return;
   }
-  const Ticks d = elapsed(begin, end);
-  Calls& c = *calls_[k];
-  c.count.fetch_add(1, std::memory_order_relaxed);
-  c.total.fetch_add(d, std::memory_order_relaxed);
-  c.rows.fetch_add(rows, std::memory_order_relaxed);
-  c.durations.count[Histogram::bin(d)].fetch_add(1, std::memory_order_relaxed);
-  for (Ticks most = c.max.load(std::memory_order_relaxed); d > most;)
-    if (c.max.compare_exchange_weak(most, d, std::memory_order_relaxed)) break;
-  record(lane, {begin, end, static_cast<std::uint32_t>(rows), k, true, step_.load(std::memory_order_relaxed)});
+  const Ticks d = elapsed(begin, end), of_first = first == then ? d : static_cast<Ticks>(part_of_first * double(d));
+  count_call(first, of_first, rows);
+  if (first != then) count_call(then, d - of_first, rows);
+  record(lane, {begin, end, static_cast<std::uint32_t>(rows), first, true, step_.load(std::memory_order_relaxed)});
 }
 
 }  // namespace skred

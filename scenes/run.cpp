@@ -220,21 +220,24 @@ bool advance(Run& r, const InterruptGuard& interrupt) {
   const bool traced = !r.options.trace.empty();
   while (r.sim.steps_done() < r.steps) {
     const std::int64_t n = r.sim.steps_done() + 1;
+    const bool row = n % r.every_row == 0 || n == r.steps, frame = r.every_frame > 0 && n % r.every_frame == 0;
+    const bool counters = traced && n >= from && n < to && (row || n == from || n + 1 == to);   // more would disturb what is traced
+    const bool show = r.progress.due(), stop = interrupt.asked();
     r.sim.timeline().begin_step(n);                          // sampling and copying frames are part of the step that does them
-    r.sim.step();
+    r.sim.step(Execution::graph, row || frame || counters || show || stop ? Look::now : Look::later);
     r.sweeps.add(r.sim.world());
     r.particle_steps += std::int64_t(std::get<Particles>(r.sim.world()).rows());
     report_outside(r);
     check_trouble(r.scene, r.sim);
-    if (n % r.every_row == 0 || n == r.steps) take_row(r);
-    if (r.every_frame > 0 && n % r.every_frame == 0) r.recorder.frame();
-    if (traced && n >= from && n < to) count_for_trace(r, measure(r.sim));
+    if (row) take_row(r);
+    if (frame) r.recorder.frame();
+    if (counters) count_for_trace(r, measure(r.sim));
     r.sim.timeline().end_step();
-    if (r.progress.due()) {
+    if (show) {
       const Measures m = measure(r.sim);
       r.progress.show({r.sim.time(), m.kinetic_energy, m.max_overlap_ratio, m.contacts + m.body_contacts, n});
     }
-    if (interrupt.asked() && n < r.steps) return false;
+    if (stop && n < r.steps) return false;
   }
   return true;
 }

@@ -58,19 +58,28 @@ void add_rigid_collision(Task& task, const World& w, const Effects& e, double ma
 
 namespace {
 
-template <class Space, class Inertia> void add_verlet(Task& task, const Model& m, const Effects& e, const Space& space, double h, const Inertia& inertia) {
-  const auto add = [&]<bool rotates, bool oriented> {
-    using Kernel = Integrate<rotates, oriented, Space, Inertia>;
-    task.add(Kernel{{space, h, inertia, m.bounds.value_or(no_bounds)}, verlet_loop<typename Kernel::Step>(m.vector_path)});
+template <bool ahead, class Space, class Inertia>
+Task::RowKernel verlet(Task& task, const Model& m, const Effects& e, const Space& space, double h, const Inertia& inertia) {
+  const auto kernel = [&]<bool rotates, bool oriented> {
+    using Kernel = Integrate<rotates, oriented, Space, Inertia, ahead>;
+    return task.over_rows(Kernel{{space, h, inertia, m.bounds.value_or(no_bounds)}, verlet_loop<typename Kernel::Step>(m.vector_path)});
   };
-  if (e.orientation) add.template operator()<true, true>();
-  else if (e.rotation) add.template operator()<true, false>();
-  else add.template operator()<false, false>();
+  if (e.orientation) return kernel.template operator()<true, true>();
+  if (e.rotation) return kernel.template operator()<true, false>();
+  return kernel.template operator()<false, false>();
 }
 
-template <class Space> void add_symplectic(Task& task, const Effects& e, const Space& space, double h) {
-  if (e.orientation) task.add(IntegrateSymplectic<true, Space>{space, h});
-  else task.add(IntegrateSymplectic<false, Space>{space, h});
+template <class Space> Task::RowKernel symplectic(Task& task, const Effects& e, const Space& space, double h) {
+  if (e.orientation) return task.over_rows(IntegrateSymplectic<true, Space>{space, h});
+  return task.over_rows(IntegrateSymplectic<false, Space>{space, h});
+}
+
+template <bool ahead> Task::RowKernel verlet(Task& task, const World& w, const Model& m, const Effects& e, double h) {
+  const auto in = [&](const auto& space) {
+    if (e.alike) return verlet<ahead>(task, m, e, space, h, inertia_of_all(w));
+    return verlet<ahead>(task, m, e, space, h, Inertia<false>{});
+  };
+  return m.periodic ? in(*m.periodic) : in(OpenSpace{});
 }
 
 }  // namespace
@@ -80,14 +89,11 @@ Inertia<true> inertia_of_all(const World& w) {
   return {p.mass.data[0], p.radius.data[0]};
 }
 
-void add_integrate(Task& task, const World& w, const Model& m, const Effects& e, double h) {
-  const auto in = [&](const auto& space) {
-    if (m.method == Method::ndem) add_symplectic(task, e, space, h);
-    else if (e.alike) add_verlet(task, m, e, space, h, inertia_of_all(w));
-    else add_verlet(task, m, e, space, h, Inertia<false>{});
-  };
-  if (m.periodic) in(*m.periodic);
-  else in(OpenSpace{});
+Task::RowKernel integrate(Task& task, const World& w, const Model& m, const Effects& e, double h) {
+  if (m.method == Method::sdem) return verlet<false>(task, w, m, e, h);
+  return m.periodic ? symplectic(task, e, *m.periodic, h) : symplectic(task, e, OpenSpace{}, h);
 }
+
+Task::RowKernel integrate_ahead(Task& task, const World& w, const Model& m, const Effects& e) { return verlet<true>(task, w, m, e, m.time_step); }
 
 }  // namespace skred

@@ -85,7 +85,7 @@ void add_ndem(Task& task, const World& world, const Model& model, bool initial) 
   }
   if (e.bodies && model.periodic) task.add(SweptTest<PeriodicSpace>{*model.periodic, model.time_step});
   else if (e.bodies) task.add(SweptTest<OpenSpace>{{}, model.time_step});
-  add_integrate(task, world, model, e, model.time_step);
+  task.add(integrate(task, world, model, e, model.time_step));
   add_crossings(task, model);
   if (e.moving_bodies) task.add(MoveBodies{model.pieces, model.bodies_at_start, model.time_step, model.time_step});
   if (e.energy) add_energy_ledger(task, model, e, model.time_step);

@@ -1,5 +1,6 @@
 #include "tasks/simulation.h"
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <fstream>
 #include <numeric>
@@ -11,9 +12,9 @@ namespace skred {
 
 namespace {
 
-void add_step(Task& task, const World& world, const Model& model, bool initial) {
-  if (model.method == Method::ndem) add_ndem(task, world, model, initial);
-  else add_sdem(task, world, model, initial);
+void add_step(Task& task, const World& world, const Model& model, StepPart part) {
+  if (model.method == Method::ndem) add_ndem(task, world, model, part.initial);
+  else add_sdem(task, world, model, part);
 }
 
 }  // namespace
@@ -66,8 +67,13 @@ Simulation::Simulation(World world, Model model, int threads)
   model_.pieces.resize(b.rows());
 
   inside([&] {
-    task_ = std::make_unique<Task>(world_, timeline_);
-    add_step(*task_, world_, model_, false);
+    for (const bool moved : {false, true})
+      for (const bool moves_on : {false, true}) {
+        std::unique_ptr<Task>& task = tasks_[moved][moves_on];
+        if ((moved || moves_on) && !can_move_on(model_, effects_)) continue;
+        task = std::make_unique<Task>(world_, timeline_);
+        add_step(*task, world_, model_, {.moved = moved, .moves_on = moves_on});
+      }
   });
 }
 
@@ -75,25 +81,29 @@ void Simulation::start() {
   inside([&] {
     Timeline aside(threads_);                       // not part of the run's profile
     Task initial(world_, aside);
-    add_step(initial, world_, model_, true);
+    add_step(initial, world_, model_, {.initial = true});
     initial.step_list();
   });
 }
 
-void Simulation::step(Execution how) {
+void Simulation::step(Execution how, Look look) {
+  const bool moves_on = look == Look::later && can_move_on(model_, effects_);
+  Task& task = *tasks_[moved_][moves_on];
   ++std::get<Clock>(world_).step.data[0];
   inside([&] {
     switch (how) {
-      case Execution::graph: task_->step(); break;
-      case Execution::list: task_->step_list(); break;
-      case Execution::serial: task_->step_serial(); break;
+      case Execution::graph: task.step(); break;
+      case Execution::list: task.step_list(); break;
+      case Execution::serial: task.step_serial(); break;
     }
   });
+  moved_ = moves_on && std::get<Search>(world_).trouble.data[0] == Trouble::none;
 }
 
 void Simulation::step_in_order(std::span<const std::size_t> order) {
+  assert(!moved_);
   ++std::get<Clock>(world_).step.data[0];
-  inside([&] { task_->step_in_order(order); });
+  inside([&] { task().step_in_order(order); });
 }
 
 std::vector<Index> rows_by_id(const Particles& p) {
@@ -109,6 +119,7 @@ std::vector<Index> rows_by_id(const Particles& p) {
 }
 
 std::uint64_t Simulation::state_hash() const {
+  assert(!moved_);
   StateHash hash;
   const Particles& p = std::get<Particles>(world_);
   const Contacts& c = std::get<Contacts>(world_);

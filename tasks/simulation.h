@@ -12,6 +12,7 @@
 namespace skred {
 
 enum class Execution { graph, list, serial };
+enum class Look { now, later };
 
 class Simulation {
  public:
@@ -21,7 +22,8 @@ class Simulation {
   Simulation& operator=(const Simulation&) = delete;
 
   void start();                                     // contacts and forces of the state at step 0; call once, first
-  void step(Execution = Execution::graph);
+  // Look::later: nobody reads the state before the next step, which may have begun already. In trouble it has not.
+  void step(Execution = Execution::graph, Look = Look::now);
   void step_in_order(std::span<const std::size_t> order);
 
   std::int64_t steps_done() const { return std::get<Clock>(world_).step.data[0]; }
@@ -31,7 +33,7 @@ class Simulation {
   World& world() { return world_; }
   const Model& model() const { return model_; }
   const Effects& effects() const { return effects_; }
-  Task& task() { return *task_; }
+  Task& task() { return *tasks_[false][false]; }
   Timeline& timeline() { return timeline_; }
   int threads() const { return threads_; }
 
@@ -49,7 +51,8 @@ class Simulation {
   tbb::global_control limit_;
   tbb::task_arena arena_;
   Timeline timeline_;
-  std::unique_ptr<Task> task_;
+  std::unique_ptr<Task> tasks_[2][2];             // [moved][moves on] (tasks/steps.h)
+  bool moved_ = false;                            // positions and velocities are on their way to the next step
 };
 
 // Rows of the particles in the order of their ids, which have gaps where particles were removed.

@@ -8,16 +8,21 @@
 
 namespace skred {
 
-// One step of smooth DEM from time n to n+1. With `initial` it is a step of length zero: it lists the contacts and computes the
-// forces of the state as it stands, which a run does once before its first step.
-void add_sdem(Task&, const World&, const Model&, bool initial = false);
+// One step of smooth DEM from time n to n+1. `initial`: a step of length zero, which lists the contacts and computes the forces of
+// the state as it stands; a run does that once before its first step. Of steps in a row whose states nobody looks at, the
+// integration of the next can be done when a particle's new velocity is known, and is still in a cache: `moves_on`; and a step
+// after such a one begins behind it: `moved`. The bits are the same.
+struct StepPart { bool initial = false, moved = false, moves_on = false; };
+void add_sdem(Task&, const World&, const Model&, StepPart = {});
+bool can_move_on(const Model&, const Effects&);
 
 // One step of nonsmooth DEM. With `initial` it lists the contacts of the state as it stands and gives them their elastic forces.
 void add_ndem(Task&, const World&, const Model&, bool initial = false);
 
 // What both share. `columns` of the contacts; of those, springs, memories and as a rule rolling moments are history.
 void add_collision(Task&, const World&, const Model&, const Effects&, const ContactColumns& columns, double time_step);
-void add_integrate(Task&, const World&, const Model&, const Effects&, double time_step);
+Task::RowKernel integrate(Task&, const World&, const Model&, const Effects&, double time_step);
+Task::RowKernel integrate_ahead(Task&, const World&, const Model&, const Effects&);      // smooth DEM, of the next step
 Inertia<true> inertia_of_all(const World&);      // where the particles are alike
 
 // Particles that are removed and created (at the head of what follows positions), and those that cross an area (after they moved).

@@ -32,7 +32,59 @@ std::vector<Task::Edge> Task::edges() const {
   return out;
 }
 
+void Task::append(Node n) {
+  if (nodes_.size() == max_kernels) throw std::logic_error("a task holds at most 64 kernels");
+  n.observer = std::make_unique<Observer>(timeline_, timeline_.kernel(n.name));
+  nodes_.push_back(std::move(n));
+  graph_.reset();
+}
+
+void Task::add(RowKernel k) {
+  append({k.name, std::move(k.uses), nullptr, [k](Parallel parallel) {
+    const std::size_t count = k.count();
+    parallel(count, k.grain, k.run);
+    return count;
+  }});
+}
+
+void Task::add_chain(RowKernel first, RowKernel then) {
+  Uses uses = first.uses;
+  uses.insert(uses.end(), then.uses.begin(), then.uses.end());
+  const KernelId id = timeline_.kernel(first.name), then_id = timeline_.kernel(then.name);
+  auto chain = std::make_unique<Chain>(then_id);
+  const auto run = [this, first, then, id, then_id, &busy = *chain](Parallel parallel) {
+    const std::size_t count = first.count();
+    parallel(count, first.grain, [&](std::size_t from, std::size_t to) {
+      const int lane = tbb::this_task_arena::current_thread_index();
+      for (std::size_t begin = from; begin < to; begin += first.grain) {
+        const std::size_t end = std::min(to, begin + first.grain);
+        const Ticks start = Timeline::now();
+        first.run(begin, end);
+        const Ticks between = Timeline::now();
+        then.run(begin, end);
+        const Ticks stop = Timeline::now();
+        timeline_.chunk(lane, id, start, between, end - begin);
+        timeline_.chunk(lane, then_id, between, stop, end - begin);
+        busy.first_busy.fetch_add(between - start, std::memory_order_relaxed);
+        busy.then_busy.fetch_add(stop - between, std::memory_order_relaxed);
+      }
+    });
+    return count;
+  };
+  append({first.name, std::move(uses), nullptr, run, std::move(chain)});
+}
+
+void Task::run_chain(Node& n, bool threaded) {
+  n.chain->first_busy = n.chain->then_busy = 0;
+  const Ticks begin = Timeline::now();
+  const std::size_t rows = n.run(Parallel(threaded, nullptr));   // it tells the timeline of its chunks itself
+  const double first = double(n.chain->first_busy), then = double(n.chain->then_busy);
+  timeline_.chained_calls(tbb::this_task_arena::current_thread_index(), n.observer->id, n.chain->then, begin, Timeline::now(), rows,
+                          first + then > 0 ? first / (first + then) : 1);
+}
+
 void Task::run(Node& n, bool threaded) {
+  if (n.chain) return run_chain(n, threaded);
   n.observer->begin_serial();
   const Ticks begin = n.observer->serial_since;
   const std::size_t rows = n.run(Parallel(threaded, n.observer.get()));

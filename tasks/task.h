@@ -1,6 +1,7 @@
 // tasks/task.h - a task is an ordered list of kernels. Run top to bottom on one thread, the list *is* the step; the flow
 // graph is the same list with every order dropped that no data needs. Both give the same bits (tests/tasks).
 #pragma once
+#include <atomic>
 #include <bitset>
 #include <deque>
 #include <functional>
@@ -27,7 +28,25 @@ class Task {
 
   // Appends a kernel: an object with `static constexpr const char* name`, for kernels over rows `static constexpr
   // std::size_t grain` (rows of the smallest chunk that is worth another thread), and `void operator()(words...) const`.
-  template <class K> void add(K kernel) { add(std::move(kernel), &K::operator()); }
+  template <class K> void add(K kernel) {
+    if constexpr (requires { K::grain; }) add(over_rows(std::move(kernel)));
+    else add(std::move(kernel), &K::operator());
+  }
+
+  // A kernel over rows that has no place in the list yet.
+  struct RowKernel {
+    const char* name;
+    Uses uses;
+    std::size_t grain;
+    std::function<std::size_t()> count;
+    std::function<void(std::size_t first, std::size_t last)> run;
+  };
+  template <class K> RowKernel over_rows(K kernel) { return over_rows(std::move(kernel), &K::operator()); }
+  void add(RowKernel);
+
+  // Two kernels over the same rows in one loop: `then` takes each chunk while it is in the caches of the thread that ran `first`. Of
+  // what `first` writes it may read its own rows only. The timeline knows them by their names, and shares the call's time between them.
+  void add_chain(RowKernel first, RowKernel then);
 
   // Kernels are ordered, as listed, iff both use a resource and one of them writes it. Orders that follow from others are left out.
   std::vector<Edge> edges() const;
@@ -57,17 +76,24 @@ class Task {
     void begin_serial() override { serial_since = Timeline::now(); }
     void end_serial() override { chunk(tbb::this_task_arena::current_thread_index(), serial_since, 0, {}); }
   };
+  struct Chain {                                           // of two kernels: the second, and how long each worked in a call
+    KernelId then;
+    std::atomic<Ticks> first_busy{0}, then_busy{0};
+  };
   struct Node {
     const char* name;
     Uses uses;
     std::unique_ptr<Observer> observer;
     std::function<std::size_t(Parallel)> run;              // returns the rows it ran over
+    std::unique_ptr<Chain> chain = nullptr;
   };
 
   template <class K, class First, class... Rest> void add(K kernel, void (K::*)(First, Rest...) const);
-  template <class T, class Call, class... Rest>
-  static auto over_rows(World&, std::size_t grain, Call, Word<Rows<T>>, Word<std::tuple<Rest...>>);
+  template <class K, class T, class... Rest> RowKernel over_rows(K kernel, void (K::*)(Rows<T>, Rest...) const);
+  template <class... Words> Uses uses_of(const char* kernel);
+  void append(Node);
   void run(Node&, bool threaded);
+  void run_chain(Node&, bool threaded);
   void compile();
 
   World& world_;
@@ -94,40 +120,34 @@ template <class... A> void poison_rows(const A&...) {}
 #endif
 }  // namespace detail
 
-template <class K, class First, class... Rest> void Task::add(K kernel, void (K::*)(First, Rest...) const) {
-  if (nodes_.size() == max_kernels) throw std::logic_error("a task holds at most 64 kernels");
-  Node n{K::name, {}, std::make_unique<Observer>(timeline_, timeline_.kernel(K::name)), {}};
-  touch(world_, n.uses, Word<First>{});
-  (touch(world_, n.uses, Word<Rest>{}), ...);
-  for (std::size_t x = 0; x < n.uses.size(); ++x)          // Read and Update of one column would race with itself
-    for (std::size_t y = x + 1; y < n.uses.size(); ++y)
-      if (conflicts(n.uses[x], n.uses[y]) && !n.uses[x].row_count)
-        throw std::logic_error(std::string(K::name) + " names column " + n.uses[x].name + " twice");
-
-  const auto call = [this, kernel](auto rows, const Parallel& parallel) {
-    const auto with = [&](auto first, auto... rest) {
-      (detail::poison_rows(rows, rest), ...);
-      kernel(first, rest...);
-    };
-    with(make(world_, rows, parallel, Word<First>{}), make(world_, rows, parallel, Word<Rest>{})...);
-  };
-  if constexpr (requires { K::grain; }) {
-    n.run = over_rows(world_, K::grain, call, Word<First>{}, Word<std::tuple<Rest...>>{});
-  } else {
-    n.run = [call](Parallel parallel) { call(Rows<Nothing>{}, parallel); return std::size_t{1}; };
-  }
-  nodes_.push_back(std::move(n));
-  graph_.reset();
+template <class... Words> Uses Task::uses_of(const char* kernel) {
+  Uses uses;
+  (touch(world_, uses, Word<Words>{}), ...);
+  for (std::size_t x = 0; x < uses.size(); ++x)            // Read and Update of one column would race with itself
+    for (std::size_t y = x + 1; y < uses.size(); ++y)
+      if (conflicts(uses[x], uses[y]) && !uses[x].row_count)
+        throw std::logic_error(std::string(kernel) + " names column " + uses[x].name + " twice");
+  return uses;
 }
 
-template <class T, class Call, class... Rest>
-auto Task::over_rows(World& world, std::size_t grain, Call call, Word<Rows<T>>, Word<std::tuple<Rest...>>) {
+template <class K, class First, class... Rest> void Task::add(K kernel, void (K::*)(First, Rest...) const) {
+  append({K::name, uses_of<First, Rest...>(K::name), nullptr, [this, kernel](Parallel parallel) {
+    kernel(make(world_, Rows<Nothing>{}, parallel, Word<First>{}), make(world_, Rows<Nothing>{}, parallel, Word<Rest>{})...);
+    return std::size_t{1};
+  }});
+}
+
+template <class K, class T, class... Rest> Task::RowKernel Task::over_rows(K kernel, void (K::*)(Rows<T>, Rest...) const) {
   static_assert((writes_own_rows<T, Rest>::value && ...), "a kernel over rows writes only columns of the table it runs over");
-  return [&world, grain, call](Parallel parallel) {
-    const std::size_t count = std::get<T>(world).rows();
-    parallel(count, grain, [&](std::size_t first, std::size_t last) { call(Rows<T>{first, last}, Parallel{}); });
-    return count;
+  const auto call = [this, kernel](std::size_t first, std::size_t last) {
+    const Rows<T> rows{first, last};
+    const auto with = [&](auto... rest) {
+      (detail::poison_rows(rows, rest), ...);
+      kernel(rows, rest...);
+    };
+    with(make(world_, rows, Parallel{}, Word<Rest>{})...);
   };
+  return {K::name, uses_of<Rows<T>, Rest...>(K::name), K::grain, [this] { return std::get<T>(world_).rows(); }, call};
 }
 
 }  // namespace skred

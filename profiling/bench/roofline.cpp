@@ -21,11 +21,12 @@ struct KernelCost {
 //   flops   additions, subtractions, multiplications, comparisons that select; roots: divisions and square roots.
 // A pack of contacts takes the roots of sliding if one of its lanes slides: counted as in a flowing bed, always. Loops whose
 // length depends on the packing: 85 particles in 27 cells, two neighbours for each listed pair (a candidate), one
-// guest of a block for six candidates.
+// guest of a block for six candidates. The integration takes velocities and forces from the caches in which the application has left
+// them (add_chain in tasks/task.h).
 constexpr KernelCost costs[] = {
     // name, when, bytes, flops, roots
-    {"integrate", every_step, {.particle = 240}, {.particle = 46}, {}},
-    {"check_motion", every_step, {.particle = 88}, {.particle = 24}, {}},
+    {"integrate", every_step, {.particle = 80}, {.particle = 72}, {}},
+    {"check_motion", every_listing, {.particle = 112}, {.particle = 20}, {.particle = 2}},
     {"reorder", every_search, {.particle = 130}, {.particle = 7}, {.particle = 1}},
     {"broadphase", every_search, {.particle = 120, .candidate = 16}, {.particle = 760}, {}},
     {"contact_listing", every_listing, {.particle = 48, .candidate = 32}, {.candidate = 22}, {}},

@@ -64,9 +64,9 @@ class Runner {
 
  private:
   // As the loop of a run does it, kernels and the time between them.
-  void step(Execution how) {
+  void step(Execution how, Look look = Look::now) {
     sim_->timeline().begin_step(sim_->steps_done() + 1);
-    sim_->step(how);
+    sim_->step(how, look);
     sim_->timeline().end_step();
     check_sound(*sim_, job_.name);
     const Solver& s = std::get<Solver>(sim_->world());       // zeros in smooth DEM
@@ -79,7 +79,10 @@ class Runner {
   json warm_up(std::int64_t last) {
     const auto begin = SteadyClock::now();
     const std::int64_t first = sim_->steps_done();
-    while (sim_->steps_done() < last) step(job_.executions[std::size_t(sim_->steps_done()) % job_.executions.size()]);
+    while (sim_->steps_done() < last) {
+      const std::int64_t n = sim_->steps_done() + 1;
+      step(job_.executions[std::size_t(n - 1) % job_.executions.size()], n < last ? Look::later : Look::now);
+    }
     const double seconds = seconds_since(begin);
     process_.hash = hash();
     return {{"step_seconds", seconds / double(std::max<std::int64_t>(1, sim_->steps_done() - first))}, {"hash", process_.hash}};
@@ -116,7 +119,7 @@ class Runner {
 
   double timed_steps(Execution how, std::int64_t steps) {
     const auto begin = SteadyClock::now();
-    for (std::int64_t k = 0; k < steps; ++k) step(how);
+    for (std::int64_t k = 1; k <= steps; ++k) step(how, k < steps ? Look::later : Look::now);
     return seconds_since(begin);
   }
 
@@ -126,7 +129,7 @@ class Runner {
     Recorder recorder(scene_, *sim_, OutputFolder(folder.path, true));
     const auto begin = SteadyClock::now();
     recorder.frame();
-    for (std::int64_t k = 0; k < steps; ++k) step(how);
+    for (std::int64_t k = 1; k <= steps; ++k) step(how, k < steps ? Look::later : Look::now);
     recorder.finish();
     return seconds_since(begin);
   }

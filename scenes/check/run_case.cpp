@@ -49,9 +49,11 @@ void simulate(const Scene& scene, const std::function<bool()>& stop, CaseRun& ou
   Observer see(scene, sim);
   see.sample();
   while (sim.steps_done() < steps) {
-    sim.step();
+    const std::int64_t n = sim.steps_done() + 1;
+    const bool looks = n % every == 0 || n == steps;
+    sim.step(Execution::graph, looks ? Look::now : Look::later);
     check_trouble(scene, sim);
-    if (sim.steps_done() % every == 0 || sim.steps_done() == steps) see.sample();
+    if (looks) see.sample();
     if (stop()) throw Stopped{};
   }
   out.state_hash = sim.state_hash();

@@ -49,6 +49,28 @@ TEST(Timeline, SecondsAgreeWithSteadyClock) {
   EXPECT_LE(Timeline::seconds(end - begin), expected * 1.0005);
 }
 
+TEST(Timeline, ChainedCallsShareTheirTime) {
+  Timeline t(1);
+  const KernelId a = t.kernel("a"), b = t.kernel("b");
+  t.trace(1, 2);
+  t.begin_step(1);
+  const Ticks begin = Timeline::now(), end = begin + 1000;
+  t.chunk(0, a, begin, begin + 600, 7);
+  t.chunk(0, b, begin + 600, begin + 800, 7);
+  t.chained_calls(0, a, b, begin, end, 7, 0.75);
+  t.end_step();
+  const Timeline::Totals totals = t.totals();
+  EXPECT_EQ(line(totals, "a").count, 1u);
+  EXPECT_EQ(line(totals, "b").count, 1u);
+  EXPECT_EQ(line(totals, "b").rows, 7u);
+  EXPECT_NEAR(line(totals, "a").total / line(totals, "b").total, 3, 1e-9);
+  EXPECT_NEAR(line(totals, "a").busy / line(totals, "b").busy, 3, 1e-9);
+  const auto events = t.events()[0];
+  ASSERT_EQ(events.size(), 3u);                              // one call around both chunks
+  EXPECT_TRUE(events[0].whole_call && events[0].kernel == a && events[0].end == end);
+  EXPECT_EQ(events[2].kernel, b);
+}
+
 TEST(Timeline, KernelIdsAreByNameAndLimited) {
   Timeline t(1);
   const KernelId a = t.kernel("a"), b = t.kernel("b");

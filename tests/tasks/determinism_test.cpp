@@ -177,6 +177,45 @@ TEST(Determinism, SumsAcrossBlocks) {
   }
 }
 
+// Of steps whose states nobody looks at, the next begins while the particles of one are still in a cache.
+TEST(Determinism, StepsThatNobodyLooksAt) {
+  Lab walls = crowd();
+  walls.body(HollowCylinderShape{0.1, 0.2, 0.02}, {}, Motion::kinematic);
+  walls.model.pieces = {{}, {MotionPiece{0, 1, {0, 0, 0}, {0, 0, 8}, {}}}};
+  Lab watched = periodic_cloud();
+  watched.model.orientation = true;
+  for (Lab l : {walls, watched, stirred_under({NormalLaw::linear, TangentialLaw::haff_werner, RollingLaw::viscous}), stirred()}) {
+    const std::uint64_t reference = hash_after(l, 250, 1, Execution::serial);
+    for (const int threads : {1, 2, 3})
+      for (const Execution how : {Execution::graph, Execution::list, Execution::serial}) {
+        const auto simulation = l.build(threads);
+        Simulation& s = *simulation;
+        s.start();
+        for (int k = 1; k <= 250; ++k) s.step(how, k % 40 == 0 || k == 250 ? Look::now : Look::later);
+        EXPECT_EQ(s.state_hash(), reference) << threads << " " << int(how);
+        const Timeline::Totals totals = s.timeline().totals();
+        for (const Timeline::Line& line : totals.lines) EXPECT_EQ(line.count, 250u) << line.name;
+      }
+  }
+}
+
+// A step in trouble has not begun the next: who looks then sees it as it ended.
+TEST(Determinism, TroubleIsSeenAsItIs) {
+  Lab l = crowd();
+  l.sphere({0, 0, 0.5}, {0, 0, 0.9 * 0.5 * pellet_radius / l.model.time_step});
+  l.model.gravity = {0, 0, 2000};                            // soon it is too fast
+  const auto ended = [&](Look look) {
+    const auto simulation = l.build(2);
+    simulation->start();
+    const Search& s = std::get<Search>(simulation->world());
+    while (s.trouble.data[0] == Trouble::none && simulation->steps_done() < 200) simulation->step(Execution::graph, look);
+    EXPECT_EQ(s.trouble.data[0], Trouble::too_fast);
+    EXPECT_GT(simulation->steps_done(), 3);
+    return std::tuple{simulation->steps_done(), s.culprit.data[0], simulation->state_hash()};
+  };
+  EXPECT_EQ(ended(Look::later), ended(Look::now));
+}
+
 TEST(Determinism, SkinAndCellsLeaveNoTrace) {
   Lab l = stirred();
   const std::uint64_t reference = hash_after(l, 600, 2, Execution::graph);

@@ -1,5 +1,6 @@
 // The runtime: edges from declared access, and the ways to run a list.
 #include "tasks/task.h"
+#include "tasks/simulation.h"
 #include <gtest/gtest.h>
 #include <sstream>
 #include <oneapi/tbb/global_control.h>
@@ -53,6 +54,38 @@ World spheres(int n) {
     p.torque.data.push_back({});
   }
   return w;
+}
+
+// Chunk by chunk, each kernel on its own name's account.
+TEST(Task, AChainIsItsKernelsOneAfterTheOther) {
+  const auto moved = [](bool chained, int threads, int rows, Execution how) {
+    World w = spheres(rows);
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
+    Timeline t(threads);
+    tbb::task_arena arena(threads);
+    arena.execute([&] {
+      Task task(w, t);
+      task.add(WriteTorque{});
+      const Task::RowKernel write = task.over_rows(WriteForce{}), move = task.over_rows(Move{});
+      if (chained) task.add_chain(write, move);
+      else task.add(write), task.add(move);
+      for (int k = 0; k < 3; ++k) how == Execution::graph ? task.step() : how == Execution::list ? task.step_list() : task.step_serial();
+      EXPECT_EQ(task.size(), chained ? 2u : 3u);
+      const auto edges = task.edges();
+      EXPECT_EQ(edges.size(), chained ? 1u : 2u);
+    });
+    const Timeline::Totals totals = t.totals();
+    EXPECT_EQ(totals.lines.size(), 3u);
+    for (const Timeline::Line& line : totals.lines) {
+      EXPECT_EQ(line.count, 3u) << line.name;
+      EXPECT_EQ(line.rows, 3u * unsigned(rows)) << line.name;
+      EXPECT_LE(line.busy, threads * line.total * 1.0001 + 1e-12) << line.name;
+    }
+    return std::get<Particles>(w).position.data;
+  };
+  for (const int rows : {0, 1, 4, 5, 99})
+    for (const Execution how : {Execution::graph, Execution::list, Execution::serial})
+      for (const int threads : {1, 2, 3}) EXPECT_EQ(moved(true, threads, rows, how), moved(false, 1, rows, how)) << rows << " " << threads;
 }
 
 TEST(Task, EdgesFollowFromAccess) {
