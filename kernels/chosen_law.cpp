@@ -27,7 +27,7 @@ void apply_law(const PairForces<ChosenLaw<tangential, rolling, remembers, keeps_
     f = evaluate(pairs.law, contact, pairs.kinds.coefficients[c.material[i] * pairs.kinds.materials + c.material[j]], pairs.time_step, memory);
     if constexpr (Law::rotates) torque_i = -pair.arm_i * f.couple, torque_j = -pair.arm_j * f.couple;
   }
-  c.force[row] = f.force;
+  if (c.force) c.force[row] = f.force;
   if constexpr (remembers) c.memory[row] = memory;
   if constexpr (keeps_moment) c.moment[row] = f.rolling;
   add_to_sums<Law>(f.force, torque_i, torque_j, f.rolling, c, lanes, block);

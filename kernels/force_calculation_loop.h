@@ -101,7 +101,7 @@ void apply_law(const Pairs& pairs, const PairState<R>& pair, const PairColumns& 
   const auto touching = pair.contact.overlap > R(0);
   const Vec3T<R> none{R(0), R(0), R(0)};                     // not touching: no force, and the contact forgets
   const Vec3T<R> force = select(touching, f.force, none);
-  store(force, c.force, row);
+  if (c.force) store(force, c.force, row);
   if constexpr (Law::has_tangential) store(select(touching, spring, none), c.spring, row);
   if constexpr (Law::has_rolling) store(rolling = select(touching, rolling, none), c.rolling, row);
   Vec3T<R> torque_i, torque_j;

@@ -29,7 +29,7 @@ template <class Coefficients> struct LookedUpParticles {
 using VariousParticles = LookedUpParticles<LawCoefficients>;
 using ChosenParticles = LookedUpParticles<ChosenCoefficients>;
 
-// The columns that the loop works on; null where the law does not need them.
+// The columns that the loop works on; null where the law does not need them, or nobody reads them.
 struct PairColumns {
   const Index *i, *j, *place_of_j;
   const Index* material;
@@ -75,6 +75,7 @@ template <class Law, class Kinds, class Space> struct ForceCalculationParticlePa
 
   PairForces<Law, Kinds, Space> pairs;
   PairLoop<PairForces<Law, Kinds, Space>> loop;
+  bool nobody_looks = false;   // at this step's contacts: their forces need not be written down, unless it is in trouble
 
   void operator()(Parallel parallel, Read<&Incidence::first> first, Read<&HaloIncidence::guests> first_guest,
                   Read<&Guests::particle> guest, Read<&Guests::halo_row> halo_row, Read<&Contacts::i> i, Read<&Contacts::j> j,
@@ -86,8 +87,9 @@ template <class Law, class Kinds, class Space> struct ForceCalculationParticlePa
                   If<Law::keeps_rolling, Update<&Contacts::rolling>> rolling,
                   If<Law::remembers, Update<&Contacts::memory>> memory, If<Law::keeps_moment, Write<&Contacts::moment>> moment,
                   Write<&Halo::sum> halo_sum, Write<&ContactSums::force> force_sum,
-                  If<Law::rotates, Write<&ContactSums::torque>> torque_sum) const {
-    const PairColumns columns{i.data(), j.data(), place_of_j.data(), pointer(material), force.data(), pointer(spring), pointer(rolling),
+                  If<Law::rotates, Write<&ContactSums::torque>> torque_sum, Read<&Search::trouble> trouble) const {
+    const bool unread = nobody_looks && trouble[0] == Trouble::none;
+    const PairColumns columns{i.data(), j.data(), place_of_j.data(), pointer(material), unread ? nullptr : force.data(), pointer(spring), pointer(rolling),
                               pointer(memory), pointer(moment)};
     parallel.chunks(position.size(), contact_block, [&](std::size_t block, std::size_t begin, std::size_t end) {
       const std::size_t from = first_guest[block], guests = first_guest[block + 1] - from;

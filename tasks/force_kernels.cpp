@@ -51,13 +51,13 @@ template <class Law> std::vector<typename Law::Coefficients> table_of(const Mode
   return table;
 }
 
-template <class Law> void add_kernels(Task& task, const World& w, const Model& m, const Effects& e, double h, Law law) {
+template <class Law> void add_kernels(Task& task, const World& w, const Model& m, const Effects& e, StepPart part, Law law) {
   const auto table = table_of<Law>(m);
   const Particles& p = std::get<Particles>(w);
 
   const auto add_pairs = [&](auto kinds, auto space) {
     using Kernel = ForceCalculationParticleParticle<Law, decltype(kinds), decltype(space)>;
-    task.add(Kernel{{law, kinds, space, h}, pair_loop<decltype(Kernel::pairs)>(m.vector_path)});
+    task.add(Kernel{{law, kinds, space, length_of(m, part)}, pair_loop<decltype(Kernel::pairs)>(m.vector_path), part.moves_on});
   };
   const auto add_in = [&](auto space) {
     if constexpr (Law::chosen) {
@@ -73,40 +73,40 @@ template <class Law> void add_kernels(Task& task, const World& w, const Model& m
     if (m.periodic) add_in(*m.periodic);
     else add_in(OpenSpace{});
   }
-  if (e.bodies) task.add(ForceCalculationParticleBody<Law>{{law, m.pairs.count, table, h}, wall_loop<Law>(m.vector_path)});
+  if (e.bodies) task.add(ForceCalculationParticleBody<Law>{{law, m.pairs.count, table, length_of(m, part)}, wall_loop<Law>(m.vector_path)});
 }
 
-template <class Law> void add_rigid_kernel(Task& task, const Model& m, double h, Law law) {
-  task.add(ForceCalculationBodyBody<Law>{law, m.pairs.count, table_of<Law>(m), h});
+template <class Law> void add_rigid_kernel(Task& task, const Model& m, StepPart part, Law law) {
+  task.add(ForceCalculationBodyBody<Law>{law, m.pairs.count, table_of<Law>(m), length_of(m, part)});
 }
 
-template <bool damped> void choose(Task& task, const World& w, const Model& m, const Effects& e, double h) {
-  if (e.friction && e.rolling) add_kernels(task, w, m, e, h, FrictionAndRolling<damped>{});
-  else if (e.friction) add_kernels(task, w, m, e, h, FrictionOnly<damped>{});
-  else if (e.rolling) add_kernels(task, w, m, e, h, RollingOnly<damped>{});
-  else add_kernels(task, w, m, e, h, NormalOnly<damped>{});
-  if (e.rigid_contacts && e.friction) add_rigid_kernel(task, m, h, FrictionOnly<damped>{});
-  else if (e.rigid_contacts) add_rigid_kernel(task, m, h, NormalOnly<damped>{});
+template <bool damped> void choose(Task& task, const World& w, const Model& m, const Effects& e, StepPart part) {
+  if (e.friction && e.rolling) add_kernels(task, w, m, e, part, FrictionAndRolling<damped>{});
+  else if (e.friction) add_kernels(task, w, m, e, part, FrictionOnly<damped>{});
+  else if (e.rolling) add_kernels(task, w, m, e, part, RollingOnly<damped>{});
+  else add_kernels(task, w, m, e, part, NormalOnly<damped>{});
+  if (e.rigid_contacts && e.friction) add_rigid_kernel(task, m, part, FrictionOnly<damped>{});
+  else if (e.rigid_contacts) add_rigid_kernel(task, m, part, NormalOnly<damped>{});
 }
 
-template <bool remembers> void choose_other(Task& task, const World& w, const Model& m, const Effects& e, double h) {
-  if (e.friction && e.rolling && e.energy) add_kernels(task, w, m, e, h, ChosenLaw<true, true, remembers, true>{m.contact});
-  else if (e.rolling && e.energy) add_kernels(task, w, m, e, h, ChosenLaw<false, true, remembers, true>{m.contact});
-  else if (e.friction && e.rolling) add_kernels(task, w, m, e, h, ChosenLaw<true, true, remembers>{m.contact});
-  else if (e.friction) add_kernels(task, w, m, e, h, ChosenLaw<true, false, remembers>{m.contact});
-  else if (e.rolling) add_kernels(task, w, m, e, h, ChosenLaw<false, true, remembers>{m.contact});
-  else add_kernels(task, w, m, e, h, ChosenLaw<false, false, remembers>{m.contact});
-  if (e.rigid_contacts && e.friction) add_rigid_kernel(task, m, h, ChosenLaw<true, false, remembers>{m.contact});
-  else if (e.rigid_contacts) add_rigid_kernel(task, m, h, ChosenLaw<false, false, remembers>{m.contact});
+template <bool remembers> void choose_other(Task& task, const World& w, const Model& m, const Effects& e, StepPart part) {
+  if (e.friction && e.rolling && e.energy) add_kernels(task, w, m, e, part, ChosenLaw<true, true, remembers, true>{m.contact});
+  else if (e.rolling && e.energy) add_kernels(task, w, m, e, part, ChosenLaw<false, true, remembers, true>{m.contact});
+  else if (e.friction && e.rolling) add_kernels(task, w, m, e, part, ChosenLaw<true, true, remembers>{m.contact});
+  else if (e.friction) add_kernels(task, w, m, e, part, ChosenLaw<true, false, remembers>{m.contact});
+  else if (e.rolling) add_kernels(task, w, m, e, part, ChosenLaw<false, true, remembers>{m.contact});
+  else add_kernels(task, w, m, e, part, ChosenLaw<false, false, remembers>{m.contact});
+  if (e.rigid_contacts && e.friction) add_rigid_kernel(task, m, part, ChosenLaw<true, false, remembers>{m.contact});
+  else if (e.rigid_contacts) add_rigid_kernel(task, m, part, ChosenLaw<false, false, remembers>{m.contact});
 }
 
 }  // namespace
 
-void add_force_calculation(Task& task, const World& w, const Model& m, const Effects& e, double h) {
-  if (e.chosen && e.memory) choose_other<true>(task, w, m, e, h);
-  else if (e.chosen) choose_other<false>(task, w, m, e, h);
-  else if (e.damping) choose<true>(task, w, m, e, h);
-  else choose<false>(task, w, m, e, h);
+void add_force_calculation(Task& task, const World& w, const Model& m, const Effects& e, StepPart part) {
+  if (e.chosen && e.memory) choose_other<true>(task, w, m, e, part);
+  else if (e.chosen) choose_other<false>(task, w, m, e, part);
+  else if (e.damping) choose<true>(task, w, m, e, part);
+  else choose<false>(task, w, m, e, part);
 }
 
 }  // namespace skred

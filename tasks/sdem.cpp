@@ -31,7 +31,7 @@ bool can_move_on(const Model& model, const Effects& e) { return model.method == 
 
 void add_sdem(Task& task, const World& world, const Model& model, StepPart part) {
   const Effects e = decide_effects(world, model);
-  const double h = part.initial ? 0 : model.time_step;
+  const double h = length_of(model, part);
 
   const bool torques = e.friction || e.rolling;
   if (!part.moved) task.add(integrate(task, world, model, e, h));
@@ -45,7 +45,7 @@ void add_sdem(Task& task, const World& world, const Model& model, StepPart part)
                                .moment = e.rolling && e.chosen && e.energy};
   add_collision(task, world, model, e, columns, h);
   add_rigid_collision(task, world, e, 0, columns.spring);
-  add_force_calculation(task, world, model, e, h);
+  add_force_calculation(task, world, model, e, part);
 
   const Task::RowKernel apply = e.alike ? application(task, model, e, h, inertia_of_all(world)) : application(task, model, e, h, Inertia<false>{});
   if (part.moves_on) task.add_chain(apply, integrate_ahead(task, world, model, e));

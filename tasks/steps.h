@@ -13,6 +13,7 @@ namespace skred {
 // integration of the next can be done when a particle's new velocity is known, and is still in a cache: `moves_on`; and a step
 // after such a one begins behind it: `moved`. The bits are the same.
 struct StepPart { bool initial = false, moved = false, moves_on = false; };
+inline double length_of(const Model& m, StepPart part) { return part.initial ? 0 : m.time_step; }   // h [s]
 void add_sdem(Task&, const World&, const Model&, StepPart = {});
 bool can_move_on(const Model&, const Effects&);
 
@@ -33,7 +34,7 @@ void add_crossings(Task&, const Model&);
 void add_rigid_collision(Task&, const World&, const Effects&, double margin, bool springs);
 
 // Contact force kernels, one template instance per combination of laws (tasks/force_kernels.cpp).
-void add_force_calculation(Task&, const World&, const Model&, const Effects&, double time_step);
+void add_force_calculation(Task&, const World&, const Model&, const Effects&, StepPart);
 
 // What the laws of smooth DEM know of a pair of materials.
 LawCoefficients law_coefficients(const PairCoefficients&);         // of a force that never pulls
