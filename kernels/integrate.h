@@ -16,7 +16,6 @@
 //
 // Nonsmooth DEM has solved for v(n+1) when it gets here: x(n+1) = x(n) + h v(n+1), symplectic Euler.
 #pragma once
-#include <limits>
 #include "engine/access.h"
 #include "engine/vector_path.h"
 #include "kernels/inertia.h"
@@ -25,9 +24,6 @@
 namespace skred {
 
 template <class R> constexpr Vec3T<R> mean(const Vec3T<R>& a, const Vec3T<R>& b) { return R(0.5) * (a + b); }
-
-inline constexpr double infinity = std::numeric_limits<double>::infinity();
-inline constexpr Bounds no_bounds{{-infinity, -infinity, -infinity}, {infinity, infinity, infinity}};
 
 // What the watch found of all particles of a range.
 struct AllOf { bool in_margin, well; };

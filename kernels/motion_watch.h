@@ -2,9 +2,13 @@
 //
 // Of one particle, or of as many as the number type R is wide. NaN fails every comparison.
 #pragma once
+#include <limits>
 #include "engine/geometry/shape.h"
 
 namespace skred {
+
+inline constexpr double no_end = std::numeric_limits<double>::infinity();
+inline constexpr Bounds no_bounds{{-no_end, -no_end, -no_end}, {no_end, no_end, no_end}};
 
 template <class R> auto is_inside(const Bounds& b, const Vec3T<R>& x) {
   return (x.x >= R(b.min.x)) & (x.x <= R(b.max.x)) & (x.y >= R(b.min.y)) & (x.y <= R(b.max.y)) & (x.z >= R(b.min.z)) & (x.z <= R(b.max.z));

@@ -18,12 +18,16 @@ template <class... F> Overloaded(F...) -> Overloaded<F...>;
 // inside), `side` the unit direction of the face it is measured from. Outside the distance is that to the face, edge or
 // corner; inside, that to the nearest face.
 template <std::size_t axes> Nearest nearest_of_block(const std::array<double, axes>& beyond, const std::array<Vec3, axes>& side) {
+  std::size_t face = 0, outside = 0;                         // of how many faces the point is on the outer side
+  for (std::size_t k = 0; k < axes; ++k) {
+    if (beyond[k] > beyond[face]) face = k;
+    outside += beyond[k] > 0;
+  }
+  if (outside < 2) return {beyond[face], side[face], 0};
   Vec3 out{};
   for (std::size_t k = 0; k < axes; ++k) out += std::max(beyond[k], 0.0) * side[k];
   const double distance = norm(out);
-  if (distance > 0) return {distance, (1.0 / distance) * out, 0};
-  const std::size_t face = std::max_element(beyond.begin(), beyond.end()) - beyond.begin();
-  return {beyond[face], side[face], 0};
+  return {distance, (1.0 / distance) * out, 0};
 }
 
 Vec3 along(const Vec3& axis, double coordinate) { return coordinate < 0 ? -axis : axis; }
