@@ -28,7 +28,7 @@ double smallest_radius(const World& w, const Model& m) {
 }
 Margins margins_of(const World& w, const Model& m) {
   // Tried on the flowing drum and on beds at rest: a listing every ten steps or so, a search every thirty to a hundred.
-  constexpr double list_steps = 10, list_rest = 0.002, search_steps = 40, search_rest = 0.1, largest_skin = 0.8;
+  constexpr double list_steps = 10, list_rest = 0.002, search_steps = 40, search_rest = 0.1, largest_skin = 1;
   const double radius = smallest_radius(w, m);
   double skin = m.skin > 0 ? m.skin : largest_skin * radius;   // of a pair: what two particles may approach before a search
   if (m.periodic && m.skin == 0) {                             // a particle must not reach two images of another
