@@ -39,7 +39,8 @@ void CheckMotion<Space>::operator()(Parallel parallel, Read<&Clock::step> step, 
     Read<&Bodies::motion> motion, Read<&Bodies::pose> pose, Read<&Bodies::velocity> wall_velocity,
     Read<&Bodies::angular_velocity> wall_spin, Read<&Bodies::searched> pose_searched, Read<&Geometries::body> body,
     Read<&Geometries::shape> shape, Read<&Geometries::local> local, Update<&Search::due> due, Read<&Search::rows_changed> rows_changed,
-    Update<&Search::left_margin> left_margin, Update<&Search::unwell> unwell, Write<&Search::list_due> list_due, Update<&Search::count> count, Update<&Search::listings> listings, Update<&Search::reach> reach, Write<&Search::trouble> trouble,
+    Update<&Search::left_margin> left_margin, Update<&Search::unwell> unwell, Write<&Search::list_due> list_due,
+    Update<&Search::count> count, Update<&Search::listings> listings, Update<&Search::reach> reach, Write<&Search::trouble> trouble,
     Write<&Search::culprit> culprit, Write<&Search::outside> outside) const {
   constexpr std::size_t chunk = 1024;
   const std::size_t n = position.size(), chunks = (n + chunk - 1) / chunk;
