@@ -67,11 +67,12 @@ void Recorder::frame() {
 const Measures& Recorder::statistics() {
   if (sim_.steps_done() == last_row_step_) return last_;
   last_row_step_ = sim_.steps_done();
-  const Ticks begin = Timeline::now();
-  last_ = measure(sim_);
-  const Ticks end = Timeline::now();
-  sim_.timeline().chunk(0, sample_, begin, end, 1);
-  sim_.timeline().call(0, sample_, begin, end, 1);
+  sim_.inside([&] {
+    KernelObserver(sim_.timeline(), sample_).call(sim_.threads() > 1, [&](Parallel parallel) {
+      last_ = measure(sim_, parallel);
+      return std::get<Particles>(sim_.world()).rows();
+    });
+  });
   writer_.push([r = statistics_row(scene_, sim_, last_), to = series_] { to->append(r); });
   return last_;
 }

@@ -10,7 +10,7 @@ namespace skred {
 namespace {
 
 // Visits every pair that touches, by ascending (id of i, id of j): visit(contact, overlap, normal).
-template <class Visit> void for_each_touching_pair(const Simulation& sim, const std::vector<Index>& rows, Visit visit) {
+template <class Visit> void for_each_touching_pair(const Simulation& sim, std::span<const Index> rows, Visit visit) {
   const World& w = sim.world();
   const Particles& p = std::get<Particles>(w);
   const Contacts& c = std::get<Contacts>(w);
@@ -26,7 +26,7 @@ template <class Visit> void for_each_touching_pair(const Simulation& sim, const 
     }
 }
 
-template <class Visit> void for_each_touching_body(const Simulation& sim, const std::vector<Index>& rows, Visit visit) {
+template <class Visit> void for_each_touching_body(const Simulation& sim, std::span<const Index> rows, Visit visit) {
   const BodyContacts& c = std::get<BodyContacts>(sim.world());
   const auto& first = std::get<BodyIncidence>(sim.world()).first.data;
   for (const Index r : rows)
@@ -55,19 +55,16 @@ std::vector<BodyLoad> loads_on_bodies(const World& w) {
   return loads;
 }
 
-}  // namespace
-
-Measures measure(const Simulation& sim) {
+// Of the particles in these rows, and of the contacts that are listed with them. Speeds and coordination are sums as yet.
+Measures sums_over(const Simulation& sim, std::span<const Index> rows, const Vec3& up) {
   const World& w = sim.world();
   const Particles& p = std::get<Particles>(w);
   const Contacts& c = std::get<Contacts>(w);
   const BodyContacts& bc = std::get<BodyContacts>(w);
   const Vec3 g = sim.model().gravity;
-  const Vec3 up = g == Vec3{} ? Vec3{0, 0, 1} : -normalized(g);
-  const std::vector<Index> rows = rows_by_id(p);
 
   Measures m;
-  m.highest = rows.empty() ? 0 : -std::numeric_limits<double>::infinity();
+  m.highest = -std::numeric_limits<double>::infinity();
   for (const Index r : rows) {
     const double mass = p.mass.data[r], v2 = dot(p.velocity.data[r], p.velocity.data[r]), speed = std::sqrt(v2);
     const double inertia = 0.4 * mass * p.radius.data[r] * p.radius.data[r];
@@ -91,11 +88,43 @@ Measures measure(const Simulation& sim) {
     m.body_normal_force += std::abs(dot(bc.force.data[k], bc.normal.data[k]));
     see_overlap(bc.overlap.data[k] / p.radius.data[r], p.id.data[r]);
   });
-  if (!rows.empty()) {
-    m.mean_speed /= double(rows.size());
-    m.coordination_number = double(2 * m.contacts + m.body_contacts) / double(rows.size());
+  return m;
+}
+
+void add(Measures& m, const Measures& part) {
+  m.kinetic_energy += part.kinetic_energy;
+  m.rotational_energy += part.rotational_energy;
+  m.potential_energy += part.potential_energy;
+  m.contacts += part.contacts;
+  m.body_contacts += part.body_contacts;
+  m.normal_force += part.normal_force;
+  m.body_normal_force += part.body_normal_force;
+  if (part.max_overlap_ratio > m.max_overlap_ratio) m.max_overlap_ratio = part.max_overlap_ratio, m.max_overlap_particle = part.max_overlap_particle;
+  m.mean_speed += part.mean_speed;
+  m.max_speed = std::max(m.max_speed, part.max_speed);
+  m.highest = std::max(m.highest, part.highest);
+}
+
+}  // namespace
+
+Measures measure(const Simulation& sim, Parallel parallel) {
+  constexpr std::size_t chunk = 4096;                        // ids; whoever sums them, chunks are added in order
+  const Vec3 g = sim.model().gravity, up = g == Vec3{} ? Vec3{0, 0, 1} : -normalized(g);
+  const std::vector<Index> rows = rows_by_id(std::get<Particles>(sim.world()));
+  const std::size_t n = rows.size();
+
+  Measures m;
+  if (n > 0) {
+    std::vector<Measures> part((n + chunk - 1) / chunk);
+    parallel.chunks(n, chunk, [&](std::size_t k, std::size_t first, std::size_t last) {
+      part[k] = sums_over(sim, std::span(rows).subspan(first, last - first), up);
+    });
+    m = part[0];
+    for (std::size_t k = 1; k < part.size(); ++k) add(m, part[k]);
+    m.mean_speed /= double(n);
+    m.coordination_number = double(2 * m.contacts + m.body_contacts) / double(n);
   }
-  m.loads = loads_on_bodies(w);
+  m.loads = loads_on_bodies(sim.world());
   return m;
 }
 

@@ -1,6 +1,6 @@
 // tasks/sampling.h - looking at a simulation without touching it: the numbers of the time series, and frames for the disk.
 //
-// Sums run in order of id, so they have the same bits for any number of threads and any skin.
+// Sums run in order of id, by chunks of ids, so they have the same bits for any number of threads and any skin.
 #pragma once
 #include <utility>
 #include <vector>
@@ -23,7 +23,7 @@ struct Measures {
   std::vector<BodyLoad> loads;                        // by body: from particles and other bodies
 };
 
-Measures measure(const Simulation&);
+Measures measure(const Simulation&, Parallel = {});
 
 // Of the particles whose centre is in a region; means are over particles, and 0 where there is none.
 struct RegionMeasures {

@@ -34,7 +34,7 @@ std::vector<Task::Edge> Task::edges() const {
 
 void Task::append(Node n) {
   if (nodes_.size() == max_kernels) throw std::logic_error("a task holds at most 64 kernels");
-  n.observer = std::make_unique<Observer>(timeline_, timeline_.kernel(n.name));
+  n.observer = std::make_unique<KernelObserver>(timeline_, timeline_.kernel(n.name));
   nodes_.push_back(std::move(n));
   graph_.reset();
 }
@@ -79,17 +79,13 @@ void Task::run_chain(Node& n, bool threaded) {
   const Ticks begin = Timeline::now();
   const std::size_t rows = n.run(Parallel(threaded, nullptr));   // it tells the timeline of its chunks itself
   const double first = double(n.chain->first_busy), then = double(n.chain->then_busy);
-  timeline_.chained_calls(tbb::this_task_arena::current_thread_index(), n.observer->id, n.chain->then, begin, Timeline::now(), rows,
+  timeline_.chained_calls(tbb::this_task_arena::current_thread_index(), n.observer->id(), n.chain->then, begin, Timeline::now(), rows,
                           first + then > 0 ? first / (first + then) : 1);
 }
 
 void Task::run(Node& n, bool threaded) {
   if (n.chain) return run_chain(n, threaded);
-  n.observer->begin_serial();
-  const Ticks begin = n.observer->serial_since;
-  const std::size_t rows = n.run(Parallel(threaded, n.observer.get()));
-  n.observer->end_serial();
-  timeline_.call(tbb::this_task_arena::current_thread_index(), n.observer->id, begin, Timeline::now(), rows);
+  n.observer->call(threaded, n.run);
 }
 
 void Task::compile() {

@@ -13,7 +13,7 @@
 #include <string>
 #include <oneapi/tbb/flow_graph.h>
 #include "engine/access.h"
-#include "profiling/timeline.h"
+#include "tasks/kernel_observer.h"
 
 namespace skred {
 
@@ -64,18 +64,6 @@ class Task {
   using Token = tbb::flow::continue_msg;
   static constexpr std::size_t max_kernels = 64;
 
-  struct Observer final : ChunkObserver {
-    Timeline* timeline;
-    KernelId id;
-    Ticks serial_since = 0;
-    Observer(Timeline& t, KernelId k) : timeline(&t), id(k) {}
-    std::uint64_t now() const override { return Timeline::now(); }
-    void chunk(int lane, std::uint64_t begin, std::size_t rows, LoopLabel label) override {
-      timeline->chunk(lane, id, begin, Timeline::now(), rows, label);
-    }
-    void begin_serial() override { serial_since = Timeline::now(); }
-    void end_serial() override { chunk(tbb::this_task_arena::current_thread_index(), serial_since, 0, {}); }
-  };
   struct Chain {                                           // of two kernels: the second, and how long each worked in a call
     KernelId then;
     std::atomic<Ticks> first_busy{0}, then_busy{0};
@@ -83,7 +71,7 @@ class Task {
   struct Node {
     const char* name;
     Uses uses;
-    std::unique_ptr<Observer> observer;
+    std::unique_ptr<KernelObserver> observer;
     std::function<std::size_t(Parallel)> run;              // returns the rows it ran over
     std::unique_ptr<Chain> chain = nullptr;
   };
