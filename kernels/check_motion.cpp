@@ -32,13 +32,21 @@ double surface_moved(const Pose& now, const Pose& then, double lever) {
 
 }  // namespace
 
+std::vector<double> extent_of_bodies(const Bodies& bodies, const Geometries& g) {
+  std::vector<double> extent(bodies.rows(), -1);
+  for (std::size_t k = 0; k < g.rows(); ++k) {
+    double& of_body = extent[g.body.data[k]];
+    of_body = std::max(of_body, norm(g.local.data[k].position) + outer_radius(g.shape.data[k]));
+  }
+  return extent;
+}
+
 template <class Space>
 void CheckMotion<Space>::operator()(Parallel parallel, Read<&Clock::step> step, Read<&Particles::id> id, Read<&Particles::position> position,
     Read<&Particles::velocity> velocity, Read<&Particles::radius> radius, Update<&Particles::searched> searched,
     Update<&Particles::search_margin> search_margin, Update<&Particles::listed> listed, Update<&Particles::list_margin> list_margin,
     Read<&Bodies::motion> motion, Read<&Bodies::pose> pose, Read<&Bodies::velocity> wall_velocity,
-    Read<&Bodies::angular_velocity> wall_spin, Read<&Bodies::searched> pose_searched, Read<&Geometries::body> body,
-    Read<&Geometries::shape> shape, Read<&Geometries::local> local, Update<&Search::due> due, Read<&Search::rows_changed> rows_changed,
+    Read<&Bodies::angular_velocity> wall_spin, Read<&Bodies::searched> pose_searched, Update<&Search::due> due, Read<&Search::rows_changed> rows_changed,
     Update<&Search::left_margin> left_margin, Update<&Search::unwell> unwell, Write<&Search::list_due> list_due,
     Update<&Search::count> count, Update<&Search::listings> listings, Update<&Search::reach> reach, Write<&Search::trouble> trouble,
     Write<&Search::culprit> culprit, Write<&Search::outside> outside) const {
@@ -94,11 +102,9 @@ void CheckMotion<Space>::operator()(Parallel parallel, Read<&Clock::step> step, 
     for (std::size_t p = 0; p < n; ++p)
       if (dot(velocity[p], velocity[p]) == all.speed2) all.blame(Trouble::too_fast, id[p]);
   double walls_moved = 0;
-  for (std::size_t g = 0; g < body.size() && !first; ++g) {
-    const Index b = body[g];
-    if (motion[b] == Motion::fixed) continue;
-    const double lever = std::min(norm(local[g].position) + outer_radius(shape[g]),
-                                  reach[0] + 2 * margins.largest + norm(pose_searched[b].position));   // a plane has no end; the particles do
+  for (std::size_t b = 0; b < motion.size() && !first; ++b) {
+    if (motion[b] == Motion::fixed || extent[b] < 0) continue;
+    const double lever = std::min(extent[b], reach[0] + 2 * margins.largest + norm(pose_searched[b].position));   // a plane has no end; the particles do
     const double to_come = ahead.watched ? time_step * (norm(wall_velocity[b]) + norm(wall_spin[b]) * lever) : 0;
     walls_moved = std::max(walls_moved, surface_moved(pose[b], pose_searched[b], lever) + to_come);
   }

@@ -6,6 +6,7 @@
 // would end outside. Nothing else depends on margins: no result does (tests/tasks).
 #pragma once
 #include <limits>
+#include <vector>
 #include "engine/access.h"
 #include "engine/periodic.h"
 #include "kernels/motion_watch.h"
@@ -27,6 +28,9 @@ struct StepAhead {
   double widest = std::numeric_limits<double>::infinity();   // [m] widest margin that the space allows
 };
 
+// By body: how far its surface reaches from the body's origin [m]; infinite for a plane, negative without geometry.
+std::vector<double> extent_of_bodies(const Bodies&, const Geometries&);
+
 template <class Space> struct CheckMotion {
   static constexpr const char* name = "check_motion";
 
@@ -38,14 +42,14 @@ template <class Space> struct CheckMotion {
   bool stop_outside;             // a particle outside is trouble
   StepAhead ahead;
   int reorder_every;             // steps: then a search is due too (kernels/reorder.h)
+  std::vector<double> extent;    // of the bodies
   bool watched_by_integrate = false;   // it has raised the flags left_margin and unwell: particles are looked at only if it did
 
   void operator()(Parallel parallel, Read<&Clock::step> step, Read<&Particles::id> id, Read<&Particles::position> position, Read<&Particles::velocity> velocity,
                   Read<&Particles::radius> radius, Update<&Particles::searched> searched, Update<&Particles::search_margin> search_margin,
                   Update<&Particles::listed> listed, Update<&Particles::list_margin> list_margin, Read<&Bodies::motion> motion,
                   Read<&Bodies::pose> pose, Read<&Bodies::velocity> wall_velocity, Read<&Bodies::angular_velocity> wall_spin,
-                  Read<&Bodies::searched> pose_searched, Read<&Geometries::body> body, Read<&Geometries::shape> shape,
-                  Read<&Geometries::local> local, Update<&Search::due> due, Read<&Search::rows_changed> rows_changed,
+                  Read<&Bodies::searched> pose_searched, Update<&Search::due> due, Read<&Search::rows_changed> rows_changed,
                   Update<&Search::left_margin> left_margin, Update<&Search::unwell> unwell, Write<&Search::list_due> list_due,
                   Update<&Search::count> count, Update<&Search::listings> listings, Update<&Search::reach> reach,
                   Write<&Search::trouble> trouble, Write<&Search::culprit> culprit, Write<&Search::outside> outside) const;

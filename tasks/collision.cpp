@@ -16,7 +16,7 @@ namespace {
 template <class Space>
 void add_search(Task& task, const World& w, const Model& m, const Effects& e, const ContactColumns& columns, double time_step, const Space& space) {
   task.add(CheckMotion<Space>{space, margins_of(w, m), time_step, m.bounds.has_value(), m.bounds.value_or(Bounds{}), m.stop_outside, step_ahead(w, m), m.reorder_every,
-                              m.method == Method::sdem});
+                              extent_of_bodies(std::get<Bodies>(w), std::get<Geometries>(w)), m.method == Method::sdem});
   task.add(Reorder{2 * largest_radius(w, m), m.reorder_every});
   if (!e.contacts) return;
   task.add(Broadphase<Space>{space, cell_of(w, m), near_loop<Space>(m.vector_path)});

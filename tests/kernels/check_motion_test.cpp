@@ -41,6 +41,7 @@ struct Watched {
     g.body.data = {0};
     g.shape.data = {std::move(shape)};
     g.local.data = {Pose{}};
+    kernel.extent = extent_of_bodies(b, g);
   }
   void check() { call(kernel, w); }
   bool search_due() { check(); return s.due.data[0]; }
