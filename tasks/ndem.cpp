@@ -67,8 +67,7 @@ template <bool rolling, class Space> void add_solver(Task& task, const World& w,
 
 }  // namespace
 
-void add_ndem(Task& task, const World& world, const Model& model, bool initial) {
-  const Effects e = decide_effects(world, model);
+void add_ndem(Task& task, const World& world, const Model& model, const Effects& e, bool initial) {
   if (initial && e.moving_bodies) task.add(MoveBodies{model.pieces, model.bodies_at_start, model.time_step, 0});
   if (!initial) add_flow(task, model);
   add_collision(task, world, model, e, {.rolling_torque = e.rolling, .spring = e.history, .rolling = e.rolling}, model.time_step);

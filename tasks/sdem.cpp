@@ -29,8 +29,7 @@ template <class Inertia> Task::RowKernel application(Task& task, const Model& m,
 // Not where every state is looked at: by the energy ledger, and at dynamic bodies by who runs the steps.
 bool can_move_on(const Model& model, const Effects& e) { return model.method == Method::sdem && !e.energy && !e.dynamic_bodies; }
 
-void add_sdem(Task& task, const World& world, const Model& model, StepPart part) {
-  const Effects e = decide_effects(world, model);
+void add_sdem(Task& task, const World& world, const Model& model, const Effects& e, StepPart part) {
   const double h = length_of(model, part);
 
   const bool torques = e.friction || e.rolling;

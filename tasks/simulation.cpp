@@ -12,9 +12,9 @@ namespace skred {
 
 namespace {
 
-void add_step(Task& task, const World& world, const Model& model, StepPart part) {
-  if (model.method == Method::ndem) add_ndem(task, world, model, part.initial);
-  else add_sdem(task, world, model, part);
+void add_step(Task& task, const World& world, const Model& model, const Effects& effects, StepPart part) {
+  if (model.method == Method::ndem) add_ndem(task, world, model, effects, part.initial);
+  else add_sdem(task, world, model, effects, part);
 }
 
 }  // namespace
@@ -72,7 +72,7 @@ Simulation::Simulation(World world, Model model, int threads)
         std::unique_ptr<Task>& task = tasks_[moved][moves_on];
         if ((moved || moves_on) && !can_move_on(model_, effects_)) continue;
         task = std::make_unique<Task>(world_, timeline_);
-        add_step(*task, world_, model_, {.moved = moved, .moves_on = moves_on});
+        add_step(*task, world_, model_, effects_, {.moved = moved, .moves_on = moves_on});
       }
   });
 }
@@ -81,7 +81,7 @@ void Simulation::start() {
   inside([&] {
     Timeline aside(threads_);                       // not part of the run's profile
     Task initial(world_, aside);
-    add_step(initial, world_, model_, {.initial = true});
+    add_step(initial, world_, model_, effects_, {.initial = true});
     initial.step_list();
   });
 }

@@ -14,11 +14,11 @@ namespace skred {
 // after such a one begins behind it: `moved`. The bits are the same.
 struct StepPart { bool initial = false, moved = false, moves_on = false; };
 inline double length_of(const Model& m, StepPart part) { return part.initial ? 0 : m.time_step; }   // h [s]
-void add_sdem(Task&, const World&, const Model&, StepPart = {});
+void add_sdem(Task&, const World&, const Model&, const Effects&, StepPart = {});
 bool can_move_on(const Model&, const Effects&);
 
 // One step of nonsmooth DEM. With `initial` it lists the contacts of the state as it stands and gives them their elastic forces.
-void add_ndem(Task&, const World&, const Model&, bool initial = false);
+void add_ndem(Task&, const World&, const Model&, const Effects&, bool initial = false);
 
 // What both share. `columns` of the contacts; of those, springs, memories and as a rule rolling moments are history.
 void add_collision(Task&, const World&, const Model&, const Effects&, const ContactColumns& columns, double time_step);
