@@ -60,7 +60,7 @@ class Timeline {
   // A whole call of a kernel, from its start to the end of its last chunk, waiting included. Its work is recorded as chunks, at
   // least one. A kernel is not called while it runs.
   void call(int lane, KernelId k, Ticks begin, Ticks end, std::size_t rows);
-  // Of two kernels that took turns in one loop. Each has its part of the time [0, 1]; the trace shows one call, of the first.
+  // Of two different kernels that took turns in one loop. Each has its part of the time [0, 1]; the trace shows one call, of the first.
   void chained_calls(int lane, KernelId first, KernelId then, Ticks begin, Ticks end, std::size_t rows, double part_of_first);
   // A value at the present step for the trace's counter tracks ("contacts", "kinetic energy [J]").
   void counter(const std::string& name, double value);
@@ -128,6 +128,7 @@ class Timeline {
 
   static Ticks elapsed(Ticks begin, Ticks end) { return end > begin ? end - begin : 0; }
   static double measure_span_cost();
+  bool is_lane(int lane);                           // else the span went astray
   void record(int lane, const Event& e);
   void count_call(KernelId k, Ticks duration, std::size_t rows);
   void keep(Lane& lane, const Event& e);
@@ -179,6 +180,12 @@ inline void Timeline::keep(Lane& lane, const Event& e) {
   else lane.dropped.add(1);                         // never allocate while measuring; report the loss
 }
 
+inline bool Timeline::is_lane(int lane) {
+  if (lane >= 0 && lane <= threads_) return true;
+  astray_.fetch_add(1, std::memory_order_relaxed);  // of a thread outside the arena
+  return false;
+}
+
 inline void Timeline::record(int lane, const Event& e) {
   lanes_[lane].spans.add(1);
   if (lane == threads_) {
@@ -190,10 +197,7 @@ inline void Timeline::record(int lane, const Event& e) {
 
 inline void Timeline::chunk(int lane, KernelId k, Ticks begin, Ticks end, std::size_t rows, LoopLabel label) {
   assert(k < names_.size());
-  if (lane < 0 || lane > threads_) {                // a thread outside the arena has no lane
-    astray_.fetch_add(1, std::memory_order_relaxed);
-    return;
-  }
+  if (!is_lane(lane)) return;
   lanes_[lane].busy[k].add(elapsed(begin, end));
   record(lane, {begin, end, static_cast<std::uint32_t>(rows), k, false, step_.load(std::memory_order_relaxed), label});
 }
@@ -209,18 +213,18 @@ inline void Timeline::count_call(KernelId k, Ticks duration, std::size_t rows) {
 }
 
 inline void Timeline::call(int lane, KernelId k, Ticks begin, Ticks end, std::size_t rows) {
-  chained_calls(lane, k, k, begin, end, rows, 1);
+  assert(k < names_.size());
+  if (!is_lane(lane)) return;
+  count_call(k, elapsed(begin, end), rows);
+  record(lane, {begin, end, static_cast<std::uint32_t>(rows), k, true, step_.load(std::memory_order_relaxed)});
 }
 
 inline void Timeline::chained_calls(int lane, KernelId first, KernelId then, Ticks begin, Ticks end, std::size_t rows, double part_of_first) {
   assert(first < names_.size() && then < names_.size());
-  if (lane < 0 || lane > threads_) {
-    astray_.fetch_add(1, std::memory_order_relaxed);
-    return;
-  }
-  const Ticks d = elapsed(begin, end), of_first = first == then ? d : static_cast<Ticks>(part_of_first * double(d));
+  if (!is_lane(lane)) return;
+  const Ticks d = elapsed(begin, end), of_first = static_cast<Ticks>(part_of_first * double(d));
   count_call(first, of_first, rows);
-  if (first != then) count_call(then, d - of_first, rows);
+  count_call(then, d - of_first, rows);
   record(lane, {begin, end, static_cast<std::uint32_t>(rows), first, true, step_.load(std::memory_order_relaxed)});
 }
 
