@@ -2,7 +2,7 @@
 #pragma once
 #include <array>
 #include <cstring>
-#include "engine/pack.h"
+#include "engine/pack_vectors.h"
 #include "kernels/broadphase.h"
 
 namespace skred {

@@ -4,6 +4,7 @@
 // do not touch compute numbers without meaning, which the last lines replace by zeros.
 #pragma once
 #include "engine/pack_quads.h"
+#include "engine/pack_vectors.h"
 #include "kernels/coefficients_of_lanes.h"
 #include "kernels/force_calculation_particle_particle.h"
 

@@ -2,6 +2,7 @@
 // as in force_calculation_loop.h.
 #pragma once
 #include <algorithm>
+#include "engine/pack_vectors.h"
 #include "kernels/coefficients_of_lanes.h"
 #include "kernels/force_calculation_particle_body.h"
 
